@@ -1,5 +1,5 @@
 # Sourced by run.sh and test.sh: installs what is missing and builds Release. Everything it says goes to stderr.
-# Usage: source scripts/setup.sh; aspic_install run|all; aspic_install_packages name …; aspic_build ON|OFF|BENCH [ninja target …]
+# Usage: source scripts/setup.sh; aspic_install run|all; aspic_install_packages name …; aspic_python; aspic_build ON|OFF|BENCH [ninja target …]
 
 aspic_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 aspic_build_dir=$aspic_root/build/release
@@ -37,6 +37,17 @@ aspic_install_packages() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q &&
       "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${package[@]}"
   } >&2
+}
+
+# aspic_python: what builds and tests the Python package, as far as PyPI is in reach.
+aspic_python() {
+  local stamp=$aspic_root/build/python/requirements.txt before
+  before=$(cat "$stamp" 2>/dev/null || true)
+  "$aspic_root/scripts/python.sh" || true
+  # CMake looks for it when it configures.
+  if [ -f "$aspic_build_dir/build.ninja" ] && [ "$before" != "$(cat "$stamp" 2>/dev/null || true)" ]; then
+    cmake "$aspic_build_dir" >&2
+  fi
 }
 
 # aspic_build ON|OFF|BENCH [target …]: ON has the tests built as well, BENCH also what measures. Ninja configures again by itself when a

@@ -11,7 +11,7 @@ scripts/test.sh [--full] ARGUMENT …  with arguments of ctest. -R, -L and -I ch
                                      scripts/test.sh -R EqualBits; scripts/test.sh -L drivers
 
 core      each room's own tests; the gpu solvers on llvmpipe with a covering set of methods, terrains, contact
-          models, force paths and bodies; pictures; the command line; the window's main tests
+          models, force paths and bodies; pictures; the command line; the Python package; the window's main tests
 full      core, and by label:
   pages        pages of every built-in scene in Chromium and Firefox
   products     equal bits in products of methods, terrains and paths, and for more particles
@@ -23,6 +23,7 @@ full      core, and by label:
   window       the rest of the window's tests
   report       the report's page, in a browser
   independent  the independent implementation of the physics
+  packages     the Python package from source distribution to wheel to a fresh environment
   attack       damaged files, limits, faults and kills (scripts/attack.sh)
           and without a label:
   sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers
@@ -55,6 +56,7 @@ if [ "$full" = no ]; then
 fi
 
 aspic_install all
+aspic_python
 aspic_build ON
 ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -j "$(nproc)" "${tier[@]}" "${arguments[@]}"
 if [ "$full" = yes ] && [ "${#arguments[@]}" -eq 0 ]; then

@@ -10,7 +10,8 @@
 #include "aspic/files.h"       // write_state(), read_checkpoint(), write_checkpoint()
 #include "aspic/inputs.h"      // Inputs: pulls, pins, channels; InputLog
 #include "aspic/model.h"       // make_model(), initial_state(), masses, springs, surfaces
-#include "aspic/run.h"         // make_backend(), RunFiles, Recorder
+#include "aspic/parameters.h"  // list_parameters(), value_of(): the keys of scenes
+#include "aspic/run.h"         // make_backend(), RunFiles, Recorder, StillPainter
 #include "aspic/scene.h"       // Scene, load_scene(), parse_scene(), to_toml()
 #include "aspic/settings.h"    // ModelSettings
 #include "aspic/solver.h"      // Solver: load(), advance(), state(), set_inputs()

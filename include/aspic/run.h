@@ -1,5 +1,6 @@
 #pragma once
 // Runs: which backend computes, what is written and filmed while it does.
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -186,6 +187,29 @@ class ASPIC_API Recorder {
   struct Parts;
   explicit Recorder(std::unique_ptr<Parts> parts);
   Status draw(Solver& solver, std::uint64_t step, std::uint64_t copies);
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Single pictures of a backend's states, without a window. All calls, and the destructor, on the thread that
+/// made it: that of the solver where this is a gpu one.
+class ASPIC_API StillPainter {
+ public:
+  /// Draws the backend's model where a Recorder would; the backend must outlive it, where it is. Errors: as
+  /// Recorder::create().
+  static Result<std::unique_ptr<StillPainter>> create(const Scene& scene, const Backend& backend);
+  ~StillPainter();
+  StillPainter(const StillPainter&) = delete;
+  StillPainter& operator=(const StillPainter&) = delete;
+
+  /// The state that the solver has, as `view` and as a film's picture shows it, with every ball as it is
+  /// turned at the start: height·width·3 bytes as FrameSink::write() has them. `text`: parameters, time and
+  /// scales are written on it. Errors: scene_rejected, the picture is larger than the device draws or its
+  /// memory; no_device, as Solver::advance().
+  Result<std::vector<std::byte>> draw(const ViewSettings& view, const PictureSize& size, bool text = true);
+
+ private:
+  struct Parts;
+  explicit StillPainter(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };
 

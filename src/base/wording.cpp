@@ -35,21 +35,20 @@ constexpr RemedyRow row_of(RemedyKind kind) {
     case RemedyKind::shorten:
       return {"simulate less time", "choose a shorter --duration", "record less time", "simulate less time"};
     case RemedyKind::picture_size:
-      return {"set size to {{{0}, {1}}}", "use --size {0}x{1}", "", "pass size=({0}, {1})"};
+      return {"set size to {{{0}, {1}}}", "use --size {0}x{1}", "", "pass width={0}, height={1}"};
     case RemedyKind::write_pictures:
       return {"write numbered pictures instead (PictureOutput::frames)",
               "write numbered pictures instead (--frames)",
-              "write numbered pictures instead (Format under Recording)",
-              "pass frames=\"DIRECTORY\" instead"};
+              "write numbered pictures instead (Format under Recording)", "name a directory instead"};
     case RemedyKind::resume:
       return {"read {0} with read_checkpoint()", "continue its run by aspic run --resume {0}",
-              "give it a name that ends in .aspic", "read {0} with read_checkpoint()"};
+              "give it a name that ends in .aspic", "continue it with aspic.resume()"};
     case RemedyKind::replay:
       return {"read {0} with read_inputs()", "give them to a scene: aspic run SCENE --replay {0}",
-              "open a scene, then {0}", "read {0} with read_inputs()"};
+              "open a scene, then {0}", "give {0} to Simulation.replay()"};
     case RemedyKind::give_checkpoint:
       return {"give a file that write_checkpoint() wrote", "give a file that aspic run --checkpoint wrote",
-              "open a file that Save checkpoint… wrote", "give a file that write_checkpoint() wrote"};
+              "open a file that Save checkpoint… wrote", "give a file that Simulation.save() wrote"};
   }
   return {};
 }

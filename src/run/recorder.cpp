@@ -6,13 +6,10 @@
 
 #include "base/result.h"
 #include "io/frame_schedule.h"
-#include "render/camera.h"
-#include "render/overlay_text.h"
-#include "run/arrows.h"
 #include "run/film_painter.h"
 #include "run/run_files.h"
+#include "run/shown_run.h"
 #include "run/window_host.h"
-#include "scene/follow.h"
 
 namespace aspic {
 namespace {
@@ -21,6 +18,16 @@ namespace {
 constexpr std::uint64_t most_pictures = 1000000000;
 
 }  // namespace
+
+Result<PictureContext> picture_context(const Backend& backend) {
+  if (gl::Context* const there = context_of(backend)) return PictureContext{there, nullptr};
+  auto context = gl::Context::create_headless();
+  if (!context)
+    return fail(context.error(), "pictures need an OpenGL device; a software one is enough. {}",
+                context.error().what);
+  gl::Context* const own = context->get();
+  return PictureContext{own, std::move(*context)};
+}
 
 Status check_pictures(const PictureOutput& output, double timestep, std::uint64_t first_step,
                       std::uint64_t last_step) {
@@ -82,18 +89,11 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   ASPIC_CHECK(check_pictures(output, model.simulation.timestep, first_step, last_step));
   const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, fps, output.speed);
   auto parts = std::make_unique<Parts>(Parts{output, scene, backend, schedule});
-  gl::Context* there = context_of(backend);
-  if (!there) {
-    auto context = gl::Context::create_headless();
-    if (!context)
-      return fail(context.error(), "pictures need an OpenGL device; a software one is enough. {}",
-                  context.error().what);
-    parts->own_context = std::move(*context);
-    there = parts->own_context.get();
-  }
+  ASPIC_TRY(const PictureContext made, picture_context(backend));
+  parts->own_context = made.own;
   parts->following = Following(scene, model, backend.solver->precision());
-  ASPIC_TRY(parts->film,
-            FilmPainter::create(*there, output, {{&scene, &model}}, schedule.count(), std::move(sinks)));
+  ASPIC_TRY(parts->film, FilmPainter::create(*made.context, output, {{&scene, &model}}, schedule.count(),
+                                             std::move(sinks)));
   return std::unique_ptr<Recorder>(new Recorder(std::move(parts)));
 }
 
@@ -115,24 +115,18 @@ Status Recorder::reach(Solver& solver, std::uint64_t step) {
 }
 
 Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) {
-  const ViewSettings& view = parts_->scene.view;
   const GpuSolver* const gpu = gpu_of(parts_->backend);
   State copy;
   PaintedState state;
-  if (!gpu || parts_->film->wants_copies() || parts_->following.any() || view.arrows.any()) {
+  if (!gpu || parts_->film->wants_copies() || needs_copy(parts_->scene, parts_->following)) {
     ASPIC_TRY(copy, solver.state());
   }
   if (gpu && !parts_->film->wants_copies())
     state.there = gpu->device_state();
   else
     state.copy = &copy;
-  ShownRun shown;
-  shown.camera = fitted(moved(view.camera, parts_->following.offset(solver.model(), copy)),
-                        parts_->output.size.width, parts_->output.size.height);
-  shown.legend = parts_->output.text;
-  if (view.arrows.any()) shown.arrows = arrows_of(solver.model(), copy, view.arrows, solver.inputs());
-  if (parts_->output.text)
-    shown.text = overlay_lines(parts_->scene, static_cast<double>(step) * solver.model().simulation.timestep);
+  ShownRun shown = shown_run(parts_->scene, parts_->following, solver, step, copy,
+                             {parts_->output.size, parts_->output.text});
   ASPIC_CHECK(parts_->film->add({state}, {std::move(shown)}, copies));
   parts_->last_shown = step;
   return {};

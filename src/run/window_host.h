@@ -54,4 +54,12 @@ GpuSolver* gpu_of(const Backend& backend);
 /// Where that solver works; null with gpu_of().
 gl::Context* context_of(const Backend& backend);
 
+/// Where pictures of a backend's states are drawn.
+struct PictureContext {
+  gl::Context* context = nullptr;              ///< never null
+  std::shared_ptr<gl::Context> own = nullptr;  ///< keeps it alive; null: the solver does
+};
+/// The solver's own context, or else a new headless one. Error (no_device).
+Result<PictureContext> picture_context(const Backend& backend);
+
 }  // namespace aspic

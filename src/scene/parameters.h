@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "aspic/parameters.h"
 #include "aspic/scene.h"
 #include "model/pins.h"
 
@@ -31,8 +32,7 @@ enum class ParameterType {
 };
 
 /// A parameter's value, in the alternative its type names.
-using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3,
-                           std::vector<int>, std::vector<double>, PinnedSettings>;
+using Value = ParameterValue;
 
 inline Value as_value(const GeometryValue& value) {
   return std::visit([](const auto& x) { return Value(x); }, value);

@@ -149,7 +149,7 @@ TEST(Batch, ResetsThoseOfAMaskAndKeepsTheirInputs) {
   for (std::size_t i = 0; i < models.size(); ++i)
     EXPECT_EQ(take(batch.state(i)), initial_state(*models[i], Precision::single));
   mask.pop_back();
-  EXPECT_THAT(batch.reset(mask).error().message, HasSubstr("the mask has 11 numbers"));
+  EXPECT_THAT(batch.reset(mask).error().message(), HasSubstr("the mask has 11 numbers"));
 }
 
 TEST(Batch, EachHasItsOwnInputsAndConstants) {
@@ -189,7 +189,7 @@ TEST(Batch, EachHasItsOwnInputsAndConstants) {
     for (std::size_t i = 0; i < batch.size(); ++i) expect_equal(batch, i, *solvers[i]);
   }
   EXPECT_EQ(batch.set_inputs(4, {{Pull{64, {}, 1.0, 1.0}}}).error().code, ErrorCode::usage);
-  EXPECT_THAT(batch.set_constants(4, cubes(5, 1, Integrator::midpoint)[0]).error().message,
+  EXPECT_THAT(batch.set_constants(4, cubes(5, 1, Integrator::midpoint)[0]).error().message(),
               HasSubstr("the bodies of the two models differ"));
 }
 
@@ -215,7 +215,7 @@ TEST(Batch, LoadsAndReadsStates) {
   EXPECT_EQ(batch.read_into(7, view).error().code, ErrorCode::usage);
   EXPECT_EQ(batch.load(7, State{}).error().code, ErrorCode::usage);
   EXPECT_EQ(batch.load(7, ConstStateView{}, 0).error().code, ErrorCode::usage);
-  EXPECT_THAT(batch.state(12).error().message, HasSubstr("the batch has 12, numbered from 0"));
+  EXPECT_THAT(batch.state(12).error().message(), HasSubstr("the batch has 12, numbered from 0"));
 }
 
 TEST(Batch, StopsEachAtTheEndOfAStep) {
@@ -248,10 +248,10 @@ TEST(Batch, SharesWhatModelsHaveInCommon) {
 }
 
 TEST(Batch, RefusesWhatItCannotCompute) {
-  EXPECT_THAT(Batch::create({}).error().message, HasSubstr("at least one model"));
-  EXPECT_THAT(Batch::create({cubes(3, 1, Integrator::midpoint)[0], nullptr}).error().message,
+  EXPECT_THAT(Batch::create({}).error().message(), HasSubstr("at least one model"));
+  EXPECT_THAT(Batch::create({cubes(3, 1, Integrator::midpoint)[0], nullptr}).error().message(),
               HasSubstr("instance 1 is null"));
-  EXPECT_THAT(Batch::create(cubes(3, 1, Integrator::midpoint), {1025}).error().message, HasSubstr("1024"));
+  EXPECT_THAT(Batch::create(cubes(3, 1, Integrator::midpoint), {1025}).error().message(), HasSubstr("1024"));
   setenv("ASPIC_THREADS", "many", 1);
   EXPECT_EQ(Batch::create(cubes(3, 1, Integrator::midpoint)).error().code, ErrorCode::usage);
   unsetenv("ASPIC_THREADS");

@@ -12,7 +12,7 @@ namespace aspic::test {
 
 template <class T>
 T take(Result<T> result) {
-  EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
+  EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message());
   return std::move(result).value();
 }
 

@@ -92,7 +92,7 @@ TEST(BatchRecord, RefusesWhatItCannotRecord) {
   const auto refusal = [&](double duration, double interval, const BatchQuantities& quantities = {}) {
     const auto record = batch.run(duration, interval, quantities);
     EXPECT_FALSE(record.ok());
-    return record.ok() ? "" : record.error().message;
+    return record.ok() ? "" : record.error().message();
   };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusal(-1.0, 0.1), HasSubstr("not for -1 s"));

@@ -2,6 +2,7 @@
 // failed.
 #include <aspic/aspic.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,9 +24,14 @@ class Counter : public aspic::FrameSink {
 
 int main() {
   if (aspic::library_version() != ASPIC_VERSION) return 1;
+  if (aspic::list_parameters().size() < 100) return 23;
   const std::vector<std::string> small = {"cube[0].particles-per-edge=3"};
   const auto scene = aspic::load_scene("cube-plane", small);
   if (!scene || !aspic::parse_scene(aspic::to_toml(*scene), "again")) return 2;
+  const auto edge = aspic::value_of(*scene, "cube[0].particles-per-edge");
+  if (!edge || *edge != aspic::ParameterValue(std::int64_t{3}) || aspic::value_of(*scene, "cube[1].mass"))
+    return 24;
+  if (aspic::list_keys(*scene).empty() || aspic::body_names(scene->model).size() != 1) return 25;
   const auto model = aspic::make_model(scene->model);
   if (!model) return 3;
   if (aspic::particle_masses(**model).size() != 27 || aspic::particle_ranges(**model).size() != 1) return 4;

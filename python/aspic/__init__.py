@@ -1,0 +1,64 @@
+"""Soft bodies of point masses and springs, with the same bits on GPU and CPU.
+
+    import aspic
+
+    sim = aspic.Simulation(aspic.load("cube-plane"))
+    sim.step(1000)
+    print(sim.time, sim.positions.shape, sim.energy.total, sim.hash)
+
+Importing opens no display, makes no OpenGL context and starts no thread. docs/python.md teaches the package; all
+numbers are in SI units.
+"""
+
+from . import _aspic
+from ._body import Ball, Body
+from ._errors import (
+    CheckError,
+    DeviceError,
+    DivergedError,
+    Error,
+    ErrorCode,
+    FileError,
+    InterruptedRun,
+    SceneError,
+    UsageError,
+)
+from ._inputs import Pull
+from ._reading import Measures, Springs
+from ._scene import BuiltinScene, Parameter, Scene, load, parameters, scenes
+from ._simulation import Simulation, resume
+from ._state import Difference, QuantityDifference, State, compare
+from ._trajectory import Energy, Trajectory
+
+__version__: str = _aspic.version
+
+__all__ = [
+    "Ball",
+    "Body",
+    "BuiltinScene",
+    "CheckError",
+    "DeviceError",
+    "Difference",
+    "DivergedError",
+    "Energy",
+    "Error",
+    "ErrorCode",
+    "FileError",
+    "InterruptedRun",
+    "Measures",
+    "Parameter",
+    "Pull",
+    "QuantityDifference",
+    "Scene",
+    "SceneError",
+    "Simulation",
+    "Springs",
+    "State",
+    "Trajectory",
+    "UsageError",
+    "compare",
+    "load",
+    "parameters",
+    "resume",
+    "scenes",
+]

@@ -1,0 +1,138 @@
+"""Bodies and balls of a simulation, by name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from ._reading import Readable
+    from ._state import Floats
+
+__all__ = ["Ball", "Body"]
+
+
+class Body:
+    """A body of a simulation: ``sim["cube[0]"]``. It follows the simulation; its arrays are copies."""
+
+    def __init__(self, simulation: Readable, name: str, index: int, first: int, count: int):
+        self._simulation = simulation
+        self._index = index
+        self._first = first
+        self._count = count
+        self._name = name
+
+    @property
+    def name(self) -> str:
+        """``"cube[0]"``."""
+        return self._name
+
+    @property
+    def particles(self) -> range:
+        """Its particles' indices in the simulation's arrays."""
+        return range(self._first, self._first + self._count)
+
+    @property
+    def _slice(self) -> slice:
+        return slice(self._first, self._first + self._count)
+
+    @property
+    def positions(self) -> Floats:
+        """Of its particles, (n, 3) [m]; may be assigned."""
+        return self._simulation.positions[self._slice]
+
+    @positions.setter
+    def positions(self, numbers: ArrayLike) -> None:
+        self._simulation._write("positions", numbers, self._slice)
+
+    @property
+    def velocities(self) -> Floats:
+        """Of its particles, (n, 3) [m/s]; may be assigned."""
+        return self._simulation.velocities[self._slice]
+
+    @velocities.setter
+    def velocities(self, numbers: ArrayLike) -> None:
+        self._simulation._write("velocities", numbers, self._slice)
+
+    @property
+    def masses(self) -> NDArray[np.float64]:
+        """Of its particles, (n,) [kg], of pinned ones too."""
+        return self._simulation.masses[self._slice]
+
+    @property
+    def centre_of_mass(self) -> NDArray[np.float64]:
+        """(3,) [m]."""
+        return weighted(self.masses, self.positions) / float(self.masses.sum())
+
+    @property
+    def momentum(self) -> NDArray[np.float64]:
+        """Σ m v, (3,) [N·s]."""
+        return weighted(self.masses, self.velocities)
+
+    @property
+    def surface(self) -> NDArray[np.uint32]:
+        """Squares of the surface, (m, 4) indices into ``positions``, anticlockwise from outside; none for nets."""
+        faces = self._simulation._core.surface(self._index)
+        return faces - faces.dtype.type(self._first)
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __repr__(self) -> str:
+        return f"<aspic.Body {self._name}: {self._count} particles>"
+
+
+class Ball:
+    """A ball of a simulation: ``sim["ball[0]"]``, a solid sphere. Those of launchers come after those of [[ball]]."""
+
+    def __init__(self, simulation: Readable, index: int, radius: float, mass: float, launch_step: int):
+        self._simulation = simulation
+        self._index = index
+        self._radius = radius
+        self._mass = mass
+        self._launch_step = launch_step
+
+    @property
+    def name(self) -> str:
+        """``"ball[0]"``."""
+        return f"ball[{self._index}]"
+
+    @property
+    def radius(self) -> float:
+        """[m]."""
+        return self._radius
+
+    @property
+    def mass(self) -> float:
+        """[kg]."""
+        return self._mass
+
+    @property
+    def launch_step(self) -> int:
+        """It takes part in the steps that begin at this step number or later."""
+        return self._launch_step
+
+    @property
+    def position(self) -> Floats:
+        """Of its centre, (3,) [m]."""
+        return self._simulation.ball_positions[self._index]  # type: ignore[no-any-return]
+
+    @property
+    def velocity(self) -> Floats:
+        """(3,) [m/s]."""
+        return self._simulation.ball_velocities[self._index]  # type: ignore[no-any-return]
+
+    @property
+    def angular_velocity(self) -> Floats:
+        """(3,) [rad/s]."""
+        return self._simulation.ball_angular_velocities[self._index]  # type: ignore[no-any-return]
+
+    def __repr__(self) -> str:
+        return f"<aspic.Ball {self._index}: radius {self._radius:g} m, mass {self._mass:g} kg>"
+
+
+def weighted(masses: Any, vectors: Any) -> NDArray[np.float64]:
+    """Σ m·v in double precision, (3,); every axis is summed by itself, the same whatever lies beside it."""
+    return (masses[:, None] * vectors.astype("float64")).sum(axis=0)  # type: ignore[no-any-return]

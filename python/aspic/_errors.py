@@ -1,0 +1,114 @@
+"""Errors of the library as exceptions."""
+
+from __future__ import annotations
+
+import enum
+import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ._trajectory import Trajectory
+
+__all__ = [
+    "CheckError",
+    "DeviceError",
+    "DivergedError",
+    "Error",
+    "ErrorCode",
+    "FileError",
+    "InterruptedRun",
+    "SceneError",
+    "UsageError",
+]
+
+
+class ErrorCode(enum.IntEnum):
+    """Why a call failed. The values are the exit codes of the program ``aspic``."""
+
+    CHECK_FAILED = 1
+    USAGE = 2
+    SCENE_REJECTED = 3
+    NO_DEVICE = 4
+    DIVERGED = 5
+    IO = 6
+    INTERRUPTED = 130
+
+
+class Error(Exception):
+    """An error of Aspic: sentences that say what is wrong, where, and how to fix it."""
+
+    code: ErrorCode
+    """Why, and what a program may end with."""
+
+
+class UsageError(Error, ValueError):
+    """An argument is wrong: an unknown word, sizes that differ, a particle that does not exist."""
+
+    code = ErrorCode.USAGE
+
+
+class SceneError(Error, ValueError):
+    """The scene is wrong (an unknown key, a value out of range), or larger than memory."""
+
+    code = ErrorCode.SCENE_REJECTED
+
+
+class DeviceError(Error, RuntimeError):
+    """No usable OpenGL device, a lost one, or a call from another thread than the one that made the solver."""
+
+    code = ErrorCode.NO_DEVICE
+
+
+class DivergedError(Error, ArithmeticError):
+    """A number is not finite, or a particle is faster than 1000 m/s. The state is the last good one."""
+
+    code = ErrorCode.DIVERGED
+    step: int
+    """The step that failed."""
+    index: int
+    """Of the first particle or ball that failed."""
+    ball: bool
+    """Whether it is a ball."""
+    trajectory: Trajectory | None = None
+    """What ``Simulation.run()`` had recorded."""
+
+
+class FileError(Error, OSError):
+    """A file cannot be read or written."""
+
+    code = ErrorCode.IO
+
+
+class CheckError(Error, AssertionError):
+    """A comparison failed."""
+
+    code = ErrorCode.CHECK_FAILED
+
+
+class InterruptedRun(Error, RuntimeError):
+    """The library was asked to end. Ctrl-C raises ``KeyboardInterrupt`` instead."""
+
+    code = ErrorCode.INTERRUPTED
+
+
+_classes: dict[int, type[Error]] = {
+    int(kind.code): kind
+    for kind in (UsageError, SceneError, DeviceError, DivergedError, FileError, CheckError, InterruptedRun)
+}
+
+
+def error_of(code: int, message: str) -> Error:
+    """The exception of a code; the extension module raises it."""
+    # Where a key was set, the program names its option; here there is none.
+    return _classes[code](re.sub(r"^--(set|view) ", "", message, flags=re.MULTILINE))
+
+
+def diverged(found: tuple[int, int, bool, str]) -> DivergedError:
+    """The exception of a divergence as the extension module tells it."""
+    step, index, ball, text = found
+    error = DivergedError(
+        f"the simulation diverged at step {step}: {text}. Its state is that of step {step - 1}. "
+        "A smaller simulation.timestep helps; Scene.stable_timestep() estimates the largest."
+    )
+    error.step, error.index, error.ball = step, index, ball
+    return error

@@ -1,0 +1,234 @@
+"""What a simulation is, and where it is."""
+
+from __future__ import annotations
+
+import difflib
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from . import _aspic
+from ._body import Ball, Body
+from ._errors import UsageError
+from ._scene import Scene
+from ._state import State, field_index
+from ._trajectory import Energy
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from ._state import Floats
+
+__all__ = ["Measures", "Readable", "Springs"]
+
+
+class Measures(NamedTuple):
+    """What a state is worth, in double precision whatever the state's own."""
+
+    energy: Energy
+    """[J]; ``energy.total`` is its sum."""
+    momentum: NDArray[np.float64]
+    """Σ m v of what is not pinned, (3,) [N·s]."""
+    max_speed: float
+    """[m/s]."""
+    min_height: float
+    """Lowest y of all particles and balls' centres [m]; 0 without any."""
+
+
+class Springs(NamedTuple):
+    """Every spring, sorted by its ends."""
+
+    ends: NDArray[np.uint32]
+    """Indices of particles, (m, 2), the lower one first."""
+    stiffness: NDArray[np.float64]
+    """k, (m,) [N/m]."""
+    damping: NDArray[np.float64]
+    """c, (m,) [N·s/m]."""
+    rest_length: NDArray[np.float64]
+    """(m,) [m]."""
+    type: NDArray[np.uint8]
+    """(m,): 0 structural, 1 shear, 2 bending."""
+    cord: NDArray[np.uint8]
+    """(m,): 1 where it resists stretch only."""
+
+
+class Readable:
+    """The part of a simulation that reads it."""
+
+    _core: _aspic.Simulation
+
+    # What it is.
+
+    @property
+    def scene(self) -> Scene:
+        """A copy of the scene as it is simulated."""
+        return Scene._of(self._core.scene)
+
+    @property
+    def backend(self) -> str:
+        """``"gpu:gather"``, ``"cpu"``, ``"reference:double"``: what computes, with its options."""
+        return self._core.variant
+
+    @property
+    def device(self) -> str:
+        """The driver's name of the device, or what the solver says of itself."""
+        return self._core.device
+
+    @property
+    def reason(self) -> str:
+        """Why ``"auto"`` took this backend; empty if it was named."""
+        return self._core.reason
+
+    @property
+    def precision(self) -> str:
+        """``"single"`` or ``"double"``."""
+        return "double" if self._core.doubles else "single"
+
+    @property
+    def timestep(self) -> float:
+        """h [s]."""
+        return self._core.scene.timestep
+
+    @property
+    def masses(self) -> NDArray[np.float64]:
+        """Of the particles, (n,) [kg], > 0, of pinned ones too."""
+        return self._core.masses()
+
+    @property
+    def springs(self) -> Springs:
+        """Every spring."""
+        return Springs(*self._core.springs())
+
+    @property
+    def bodies(self) -> list[str]:
+        """The names of the bodies, in the order of their particles."""
+        return self._core.scene.bodies()
+
+    @property
+    def balls(self) -> list[Ball]:
+        """Every ball by its index."""
+        return [Ball(self, i, *row) for i, row in enumerate(self._core.balls())]
+
+    def __getitem__(self, name: str) -> Any:
+        """The Body ``"cube[0]"`` (or ``"cube"``, the first one) or the Ball ``"ball[0]"``. Raises UsageError."""
+        wanted = name if name.endswith("]") else f"{name}[0]"
+        bodies = self.bodies
+        if wanted in bodies:
+            index = bodies.index(wanted)
+            return Body(self, wanted, index, *self._core.ranges()[index])
+        balls = {ball.name: ball for ball in self.balls}
+        if wanted in balls:
+            return balls[wanted]
+        near = difflib.get_close_matches(wanted, [*bodies, *balls], 1)
+        raise UsageError(
+            f"the scene has no body {name!r}"
+            + (f"; did you mean {near[0]!r}?" if near else f"; it has {', '.join([*bodies, *balls]) or 'none'}")
+        )
+
+    # Where it is.
+
+    @property
+    def steps(self) -> int:
+        """Steps since the start."""
+        return self._core.step
+
+    @property
+    def time(self) -> float:
+        """Steps × h [s]."""
+        return self.steps * self.timestep
+
+    def read(self, field: str, out: Any = None) -> Any:
+        """A field of the state: ``"positions"``, ``"velocities"``, ``"ball_positions"``, ``"ball_velocities"`` or
+        ``"ball_angular_velocities"``.
+
+        ``out``: an array (n, 3) of float32 or float64, with any strides, which is filled and returned; None: a new one.
+        Raises UsageError for an unknown field or another n.
+        """
+        import numpy as np
+
+        index = field_index(field)
+        count = len(self._core.balls()) if field.startswith("ball") else self._count()
+        if out is None:
+            out = np.empty((count, 3), np.float64 if self._core.doubles else np.float32)
+        elif not isinstance(out, np.ndarray) or out.dtype not in (np.float32, np.float64) or not out.flags.writeable:
+            raise UsageError("out has to be a writable array of float32 or float64")
+        elif out.shape != (count, 3):
+            raise UsageError(f"out has to have the shape {(count, 3)}, not {out.shape}")
+        self._core.read_into(index, out)
+        return out
+
+    def peek(self, field: str) -> Any:
+        """A field of the state in the solver's memory, without a copy: a read-only array (n, 3), with strides.
+
+        While such an array exists, what would change the state raises BufferError. Raises UsageError on the backend
+        gpu, whose state is on the device.
+        """
+        shown = self._core.view(field_index(field))
+        if shown is None:
+            raise UsageError(f"the state of the backend {self.backend} is on the device: use read(), which copies it")
+        return shown
+
+    @property
+    def positions(self) -> Floats:
+        """Of the particles, (n, 3) [m]; may be assigned."""
+        return self.read("positions")  # type: ignore[no-any-return]
+
+    @positions.setter
+    def positions(self, numbers: ArrayLike) -> None:
+        self._write("positions", numbers, slice(None))
+
+    @property
+    def velocities(self) -> Floats:
+        """Of the particles, (n, 3) [m/s]; may be assigned."""
+        return self.read("velocities")  # type: ignore[no-any-return]
+
+    @velocities.setter
+    def velocities(self, numbers: ArrayLike) -> None:
+        self._write("velocities", numbers, slice(None))
+
+    @property
+    def ball_positions(self) -> Floats:
+        """Of the balls' centres, (b, 3) [m]."""
+        return self.read("ball_positions")  # type: ignore[no-any-return]
+
+    @property
+    def ball_velocities(self) -> Floats:
+        """Of the balls, (b, 3) [m/s]."""
+        return self.read("ball_velocities")  # type: ignore[no-any-return]
+
+    @property
+    def ball_angular_velocities(self) -> Floats:
+        """ω of the balls, (b, 3) [rad/s]."""
+        return self.read("ball_angular_velocities")  # type: ignore[no-any-return]
+
+    @property
+    def measures(self) -> Measures:
+        """Energies, momentum, largest speed and lowest height."""
+        import numpy as np
+
+        kinetic, elastic, gravitational, momentum, speed, height = self._core.measures()
+        return Measures(Energy(kinetic, elastic, gravitational), np.array(momentum), speed, height)
+
+    @property
+    def energy(self) -> Energy:
+        """[J]; ``energy.total`` is the sum of kinetic, elastic and gravitational energy."""
+        return self.measures.energy
+
+    @property
+    def momentum(self) -> NDArray[np.float64]:
+        """Σ m v of what is not pinned, (3,) [N·s]."""
+        return self.measures.momentum
+
+    @property
+    def hash(self) -> str:
+        """The state's hash, as ``aspic run`` prints it: 16 hexadecimal digits, equal for the same bits only."""
+        return self._core.state().hash
+
+    def _count(self) -> int:
+        return sum(count for _, count in self._core.ranges())
+
+    def _write(self, field: str, numbers: ArrayLike, where: slice) -> None:
+        state = State(self._core.state())
+        changed = state.read(field)
+        changed[where] = numbers
+        state.write(field, changed)
+        self._core.load(state._core, None)

@@ -1,0 +1,212 @@
+"""Scenes: physics and picture of one TOML file."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from . import _aspic, _program
+from ._errors import SceneError, UsageError
+
+__all__ = ["BuiltinScene", "Parameter", "Scene", "load", "parameters", "scenes"]
+
+
+class BuiltinScene(NamedTuple):
+    """A scene that is part of the library."""
+
+    name: str
+    """As ``load()`` takes it."""
+    description: str
+    """A line."""
+    group: str
+    """The heading that it is listed under."""
+
+
+class Parameter(NamedTuple):
+    """A key of scene files; docs/scene-reference.md lists them all."""
+
+    path: str
+    """``simulation.timestep``, ``cube[].shear.stiffness``; ``[]`` is an index."""
+    meaning: str
+    """A sentence."""
+    unit: str
+    """Of SI; empty: a pure number, or no number."""
+    allowed: str
+    """In words."""
+    default: str
+    """As TOML, or in words."""
+    live: bool
+    """May change while a simulation runs: ``Simulation.update()``."""
+
+
+def scenes() -> list[BuiltinScene]:
+    """All built-in scenes, in the order in which they are listed for users."""
+    return [BuiltinScene(*row) for row in _aspic.builtin_scenes()]
+
+
+def parameters() -> list[Parameter]:
+    """Every key that a scene may have, in the order of files."""
+    return [Parameter(*row) for row in _aspic.parameters()]
+
+
+def _quoted(text: str) -> str:
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in escaped) + '"'
+
+
+def _toml(value: Any) -> str:
+    """A value as TOML. Arrays and numbers of numpy are taken for lists and numbers."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return repr(value) if math.isfinite(value) else str(value)
+    if isinstance(value, str):
+        return _quoted(value)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    raise UsageError(f"a value of a scene is a number, a word, a list or a dict of them, not {type(value).__name__}")
+
+
+def assignments(values: Mapping[str, Any] | None) -> list[str]:
+    """Keys and values as arguments of --set."""
+    found = []
+    for key, value in (values or {}).items():
+        if not isinstance(key, str) or "=" in key:
+            raise SceneError(f"a key of a scene is a path such as 'cube[0].edge-length', not {key!r}")
+        found.append(f"{key}={_toml(value)}")
+    return found
+
+
+class Scene:
+    """Physics and picture of one scene file.
+
+    Keys are the paths of ``--set``: ``scene["simulation.timestep"] = 0.0005``. Units are those of SI; every key, its
+    unit, range and meaning is in ``aspic.parameters()`` and docs/scene-reference.md. The order of keys is that of
+    files.
+    """
+
+    def __init__(self, text: str = "schema = 1\n", name: str = "scene", overrides: Mapping[str, Any] | None = None):
+        """Reads TOML text.
+
+        ``name``: for messages, and for titles where the text gives none; ``overrides``: keys and values set afterwards.
+        Raises SceneError with every mistake, its line and the nearest word.
+        """
+        self._core = _aspic.Scene.parse(text, name, assignments(overrides))
+
+    @classmethod
+    def _of(cls, core: _aspic.Scene) -> Scene:
+        scene = cls.__new__(cls)
+        scene._core = core
+        return scene
+
+    @property
+    def name(self) -> str:
+        """For titles and reports."""
+        return self._core.name
+
+    @property
+    def toml(self) -> str:
+        """A complete scene file, units as comments; reading it gives the same values to the bit."""
+        return self._core.to_toml()
+
+    @property
+    def bodies(self) -> list[str]:
+        """The names of the bodies: ``cube[0]``, ``goal-net[0]``, ``cloth[0]``."""
+        return self._core.bodies()
+
+    def __getitem__(self, key: str) -> Any:
+        """The value of a key: a number, word, tuple (vectors) or list; None where it is absent or has no meaning here.
+
+        Raises SceneError (a ValueError) for an unknown key, with the nearest one.
+        """
+        try:
+            return self._core.value(key)
+        except SceneError as error:
+            # The library asks --set, which takes a value.
+            raise SceneError(str(error).replace(f"{key}=0", key)) from None
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        """Sets a key; a dict sets several of a table.
+
+        Raises SceneError (a ValueError), and then the scene is as before: an unknown key, with the nearest one; a value
+        of another kind or out of range.
+        """
+        self.update({key: value})
+
+    def update(self, values: Mapping[str, Any]) -> None:
+        """Sets several keys at once: all, or none if it raises SceneError. Keys may depend on each other."""
+        self._core = self._core.with_overrides(assignments(values))
+
+    def copy(self, values: Mapping[str, Any] | None = None) -> Scene:
+        """Another scene with the same values, but for those given. Raises SceneError."""
+        return Scene._of(self._core.with_overrides(assignments(values)) if values else self._core)
+
+    def __copy__(self) -> Scene:
+        return self.copy()
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Scene:
+        return self.copy()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Scene, (self.toml, self.name))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._core.keys())
+
+    def __len__(self) -> int:
+        return len(self._core.keys())
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._core.keys()
+
+    def keys(self) -> list[str]:
+        """Every key that has a meaning in this scene, with indices."""
+        return self._core.keys()
+
+    _ipython_key_completions_ = keys
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Scene) and self.toml == other.toml
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return f"<aspic.Scene {self.name!r}: {', '.join(self.bodies) or 'no bodies'}>"
+
+    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
+        """Writes the scene file. Raises FileExistsError unless ``overwrite``, and what ``open()`` raises."""
+        with open(path, "w" if overwrite else "x", encoding="utf-8") as file:
+            file.write(self.toml)
+
+    def stable_timestep(self, thorough: bool = False) -> float | None:
+        """The largest stable time step of the scene's integrator, springs linearised at rest [s].
+
+        Infinite where nothing limits it (implicit Euler); None where some mode grows at any step (explicit Euler
+        without damping). ``thorough``: seconds of work for a sharper bound; the true limit is this or larger.
+        """
+        return self._core.stable_step(thorough)[0]
+
+    def view(self) -> Any:
+        """Opens the window at the scene's start, and returns its process (``subprocess.Popen``) at once.
+
+        Needs the program ``aspic`` with its window: in PATH, or named by the environment variable ASPIC_PROGRAM. Raises
+        FileError where it is not found.
+        """
+        return _program.view(self.name, self.toml)
+
+
+def load(name: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Scene:
+    """Reads a built-in scene by its name, or else a scene file.
+
+    ``overrides``: keys and values as ``Scene.update()`` takes them. Write ``./cube-plane`` for a file with a built-in's
+    name. Raises SceneError with every mistake, its line and the nearest word; FileError for a path that cannot be read.
+    """
+    return Scene._of(_aspic.Scene.load(os.fspath(name), assignments(overrides)))

@@ -1,0 +1,232 @@
+"""Simulations: a scene in motion."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, Union
+
+from . import _aspic
+from ._errors import SceneError, UsageError, diverged
+from ._inputs import Steerable
+from ._scene import Scene, assignments, load
+from ._state import State
+from ._trajectory import Recorder, Trajectory
+
+if TYPE_CHECKING:
+    from ._picture import Picture
+
+__all__ = ["Simulation", "resume"]
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+class Simulation(Steerable):
+    """A scene, the solver that steps it, and the inputs so far.
+
+    Every number is in SI units; arrays are fresh copies, (n, 3), float32, or float64 in double precision. All backends
+    give the same bits in single precision. Steps run without the GIL; Ctrl-C and other signals end them between two
+    steps, so that the state is that of a whole step. Several threads may use one simulation: they take turns. One on
+    the backend gpu may be used by the thread that made it alone (DeviceError).
+    """
+
+    def __init__(
+        self,
+        scene: Scene | Path,
+        backend: str = "auto",
+        *,
+        precision: Literal["single", "double", None] = None,
+        threads: int = 0,
+    ):
+        """Makes the solver at the scene's start; later changes of ``scene`` do not matter to it.
+
+        ``scene``: one, or what ``aspic.load()`` takes; ``backend``: ``"auto"`` (a hardware GPU, else ``cpu``),
+        ``"gpu"``, ``"cpu"``, ``"reference"``, with options after colons (``"gpu:gather"``, ``"cpu:fast"``);
+        ``precision``: only ``reference`` has ``"double"``; ``threads``: of ``cpu``, 1 … 1024, 0: as many as are
+        worthwhile. Raises UsageError for words and options that are none; SceneError where the model is larger than
+        memory or the device; DeviceError without a usable device, which says what is missing.
+        """
+        if not isinstance(scene, Scene):
+            scene = load(scene)
+        if precision not in (None, "single", "double"):
+            raise UsageError(f"a precision is 'single' or 'double', not {precision!r}")
+        if not 0 <= threads <= 1024:
+            raise UsageError(f"a number of threads is 1 to 1024, or 0 for as many as are worthwhile, not {threads}")
+        doubles = None if precision is None else precision == "double"
+        self._core = _aspic.Simulation(scene._core, backend, doubles, threads)
+
+    # Steps.
+
+    def step(self, steps: int = 1) -> None:
+        """Makes so many steps.
+
+        Raises DivergedError where a number is no longer finite or a particle is faster than 1000 m/s: the state is the
+        last good one, and further steps raise it again until ``load()``. KeyboardInterrupt (Ctrl-C) leaves the state of
+        a whole step.
+        """
+        if steps < 0:
+            raise UsageError(f"a number of steps is 0 or more, not {steps}")
+        found = self._core.advance(steps)
+        if found:
+            raise diverged(found)
+
+    def run(
+        self,
+        duration: float | None = None,
+        *,
+        steps: int | None = None,
+        every: float | None = None,
+        record: Sequence[str] = ("energy",),
+    ) -> Trajectory:
+        """Steps, and records on the way.
+
+        ``duration`` [s] or ``steps``: how far from here; neither: to the end of the scene's duration. ``every``: the
+        interval of samples [s], the first at once, each at the step nearest to its time; None: the start and the end
+        alone. ``record``: ``"energy"``, ``"momentum"``, ``"centre-of-mass"``, ``"positions"``, ``"velocities"``,
+        ``"max-speed"``, ``"min-height"``, ``"hash"``, and of a body ``"cube[0].positions"``, ``"….velocities"``,
+        ``"….centre-of-mass"``, ``"….momentum"``. Raises UsageError for others; DivergedError as ``step()``, with what
+        was recorded as ``trajectory``.
+        """
+        count = self._steps_of(duration, steps)
+        if every is not None and not every > 0:
+            raise UsageError(f"an interval of samples is more than 0 s, not {every}")
+        recorder = Recorder(self, record)
+        start, h = self.steps, self.timestep
+        recorder.take()
+        # Not by adding up: the k-th sample is where it would be without the others.
+        k = 0
+        while (done := self.steps - start) < count:
+            k += 1
+            wanted = count if every is None else round(k * every / h)
+            if wanted <= done:
+                continue
+            found = self._core.advance(min(wanted, count) - done)
+            if found:
+                error = diverged(found)
+                error.trajectory = recorder.trajectory()
+                raise error
+            if wanted <= count:
+                recorder.take()
+        return recorder.trajectory()
+
+    def compare(self, other: Simulation, steps: int) -> int | None:
+        """Steps both at once, and returns the first step whose states differ in any bit; None if none does.
+
+        Both stop at that step, or where they diverge alike. Raises UsageError where they have other numbers of
+        particles or balls. ``aspic.compare()`` compares two states as they are.
+        """
+        if other is self:
+            raise UsageError("a simulation cannot be compared with itself")
+        return self._core.compare(other._core, steps)
+
+    def update(self, values: Mapping[str, Any]) -> None:
+        """Changes constants while it runs: stiffnesses, masses, gravity, contact, the time step.
+
+        ``values``: keys and values as ``Scene.update()`` takes them. State and inputs stay. Raises SceneError for what
+        a scene refuses; UsageError where particles, springs, kinds of terrain or the integrator would become others,
+        which takes a new Simulation. Then nothing changes.
+        """
+        self._core.update(assignments(values))
+
+    # States and files.
+
+    def save(self, path: Path | None = None, overwrite: bool = False) -> State:
+        """A copy of the state with the inputs so far, for ``load()``.
+
+        ``path``: also writes a file: ``.csv`` or ``.vtp``, the state as a table or for ParaView; other endings, a
+        checkpoint with the scene, for ``aspic.resume()`` and ``aspic run --resume``. Raises FileError, also where the
+        file exists, unless ``overwrite``.
+        """
+        if path is not None:
+            name = os.fspath(path)
+            if name.endswith((".csv", ".vtp")):
+                self._core.write_state(name, overwrite)
+            else:
+                self._core.write_checkpoint(name, overwrite)
+        return State(self._core.state(), self._core.log())
+
+    def load(self, state: State) -> None:
+        """Goes to a state of the same model, with its inputs. Forgets a divergence. Raises UsageError."""
+        self._core.load(state._core, state._log)
+
+    # Pictures.
+
+    def render(
+        self, width: int = 960, height: int = 540, view: Mapping[str, Any] | None = None, *, text: bool = True
+    ) -> Picture:
+        """A picture of the state, (height, width, 3) of uint8, which notebooks show.
+
+        ``view``: keys of the scene's table ``view``, for this picture alone: ``{"colour": "strain"}``,
+        ``{"camera.position": [8, 4, 8]}``; ``text``: parameters, time and scales are written on it. The first one makes
+        an OpenGL context; a software rasteriser is enough. Raises SceneError for a wrong key or a size that cannot be
+        drawn, DeviceError without a device.
+        """
+        from ._picture import Picture
+
+        if width < 1 or height < 1:
+            raise UsageError(f"a picture has at least 1 × 1 pixels, not {width} × {height}")
+        pixels: Any = self._core.picture(assignments(view), width, height, text)
+        return pixels.view(Picture)  # type: ignore[no-any-return]
+
+    def film(
+        self,
+        path: Path,
+        duration: float | None = None,
+        *,
+        steps: int | None = None,
+        fps: float | None = None,
+        speed: float = 1.0,
+        width: int = 1280,
+        height: int = 720,
+        text: bool = True,
+        overwrite: bool = False,
+    ) -> None:
+        """Steps, and films on the way.
+
+        ``path``: a film with the ending of its format (``.mp4``, ``.webm``, …; needs the program ffmpeg), or a
+        directory of PNG files without one; ``duration``, ``steps``: as ``run()``; ``fps``: pictures per second shown,
+        None: what the format has; ``speed``: simulated seconds per second shown. Ctrl-C and a divergence leave a
+        complete film so far. Raises UsageError, FileError, DeviceError, and DivergedError as ``step()``.
+        """
+        count = self._steps_of(duration, steps)
+        if width < 1 or height < 1:
+            raise UsageError(f"a picture has at least 1 × 1 pixels, not {width} × {height}")
+        found = self._core.film(os.fspath(path), count, fps, speed, width, height, text, overwrite)
+        if found:
+            raise diverged(found)
+
+    def view(self) -> Any:
+        """Opens the window with this simulation's scene at its start, as ``Scene.view()``; the state stays here."""
+        return self.scene.view()
+
+    # Parts.
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self.bodies, *(ball.name for ball in self.balls)]
+
+    def __repr__(self) -> str:
+        return f"<aspic.Simulation of {self._core.scene.name!r} on {self.backend}: step {self.steps}, {self.time:g} s>"
+
+    def _steps_of(self, duration: float | None, steps: int | None) -> int:
+        if duration is not None and steps is not None:
+            raise UsageError("a run is as long as either duration or steps say, not both")
+        if steps is None:
+            left = self._core.scene.duration - self.time if duration is None else duration
+            steps = max(round(left / self.timestep), 0) if duration is None else round(left / self.timestep)
+        if steps < 0:
+            raise UsageError("a run takes 0 s or more")
+        return steps
+
+
+def resume(path: Path, backend: str = "auto", *, threads: int = 0) -> Simulation:
+    """A simulation that continues a checkpoint of ``Simulation.save()`` or ``aspic run --checkpoint`` to the bit.
+
+    Scene, state, precision and inputs are the file's. Raises FileError, SceneError, and what ``Simulation()`` raises.
+    """
+    scene, state, inputs = _aspic.read_checkpoint(os.fspath(path))
+    simulation = Simulation(Scene._of(scene), backend, precision="double" if state.doubles else None, threads=threads)
+    if simulation.precision != ("double" if state.doubles else "single"):
+        raise SceneError(f"{path} was written in another precision than {simulation.backend} has")
+    core = simulation._core
+    core.load(state, core.parse_log(inputs, os.fspath(path)) if inputs else None)
+    return simulation

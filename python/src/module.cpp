@@ -1,0 +1,32 @@
+// The extension module aspic._aspic: libaspic as Python sees it. What users meet is python/aspic.
+#include <aspic/version.h>
+
+#include "convert.h"
+
+namespace aspic::python {
+
+void register_errors() {
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const LibraryError& e) {
+      const nb::object made =
+          nb::module_::import_("aspic._errors").attr("error_of")(static_cast<int>(e.code()), e.what());
+      PyErr_SetObject(made.type().ptr(), made.ptr());
+    }
+  });
+}
+
+}  // namespace aspic::python
+
+NB_MODULE(_aspic, module) {
+  using namespace aspic::python;
+  // At the interpreter's end modules may still hold simulations.
+  nb::set_leak_warnings(false);
+  module.doc() = "libaspic for the package aspic, which is its interface.";
+  module.attr("version") = ASPIC_VERSION;
+  register_errors();
+  bind_scene(module);
+  bind_state(module);
+  bind_simulation(module);
+}

@@ -1,0 +1,121 @@
+// Scenes: text, keys and values.
+#include <aspic/analysis.h>
+#include <aspic/parameters.h>
+#include <aspic/run.h>
+#include <aspic/scene.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "convert.h"
+
+namespace aspic::python {
+namespace {
+
+using Words = std::vector<std::string>;
+
+nb::object as_object(const ParameterValue& value) {
+  return std::visit(
+      []<class T>(const T& v) -> nb::object {
+        if constexpr (std::is_same_v<T, Vec3>) {
+          return nb::make_tuple(v.x, v.y, v.z);
+        } else if constexpr (std::is_same_v<T, PinnedSettings>) {
+          nb::list all;
+          for (const std::string& name : v.names) all.append(name);
+          for (const std::int64_t index : v.indices) all.append(index);
+          return all;
+        } else if constexpr (std::is_same_v<T, std::vector<int>> || std::is_same_v<T, std::vector<double>>) {
+          return nb::tuple(nb::cast(v));
+        } else {
+          return nb::cast(v);
+        }
+      },
+      value);
+}
+
+using Text = std::tuple<std::string, std::string, std::string>;
+
+std::vector<Text> builtin_scenes() {
+  std::vector<Text> all;
+  for (const BuiltinScene& scene : list_builtin_scenes())
+    all.emplace_back(scene.name, scene.description, scene.group);
+  return all;
+}
+
+using Row = std::tuple<std::string, std::string, std::string, std::string, std::string, bool>;
+
+std::vector<Row> rows() {
+  std::vector<Row> all;
+  for (const ParameterInfo& p : list_parameters())
+    all.emplace_back(p.path, p.meaning, p.unit, p.allowed, p.by_default, p.live);
+  return all;
+}
+
+/// Nothing: every step grows some mode; whether it is exact.
+std::tuple<std::optional<double>, bool> stable_step(const Scene& scene, bool thorough) {
+  StabilityLimit limit;
+  {
+    const nb::gil_scoped_release others;
+    const SharedModel model = take(make_model(scene.model));
+    limit = stability_limit(*model, scene.model.simulation.integrator,
+                            thorough ? StabilityEffort::thorough : StabilityEffort::quick);
+  }
+  return {limit.step, limit.exact};
+}
+
+}  // namespace
+
+void bind_scene(nb::module_& module) {
+  module.def("builtin_scenes", &builtin_scenes, "Name, description and heading of each.");
+  module.def("parameters", &rows, "Path, meaning, unit, allowed values, default, live: of each key.");
+  module.def("backend_words", &backend_words, "The words that a backend may be named by.");
+  nb::class_<Scene>(module, "Scene", "A scene as the library holds it. It never changes.")
+      .def_static(
+          "load",
+          [](const std::string& name, const Words& overrides) { return take(load_scene(name, overrides)); },
+          nb::arg("name"), nb::arg("overrides"), "Reads a file or a built-in scene.")
+      .def_static(
+          "parse",
+          [](const std::string& text, const std::string& name, const Words& overrides) {
+            return take(parse_scene(text, name, overrides));
+          },
+          nb::arg("text"), nb::arg("name"), nb::arg("overrides"), "Reads TOML.")
+      .def(
+          "with_overrides",
+          [](const Scene& scene, const Words& overrides) { return take(with_overrides(scene, overrides)); },
+          nb::arg("overrides"), "The scene with arguments of --set.")
+      .def(
+          "with_view", [](const Scene& scene, const Words& keys) { return take(with_view(scene, keys)); },
+          nb::arg("arguments"), "The scene with arguments of --view.")
+      .def(
+          "value",
+          [](const Scene& scene, const std::string& key) {
+            const auto value = take(value_of(scene, key));
+            return value ? as_object(*value) : nb::none();
+          },
+          nb::arg("key"), "The value of a key; None where it is absent.")
+      .def(
+          "keys", [](const Scene& scene) { return list_keys(scene); }, "Every key that has a meaning.")
+      .def(
+          "bodies", [](const Scene& scene) { return body_names(scene.model); }, "Names of the bodies.")
+      .def(
+          "to_toml", [](const Scene& scene) { return to_toml(scene); }, "A complete scene file.")
+      .def("stable_step", &stable_step, nb::arg("thorough"),
+           "The largest stable time step [s], and whether it is exact.")
+      .def_prop_ro(
+          "name", [](const Scene& scene) { return scene.name; }, "For titles.")
+      .def_prop_ro(
+          "timestep", [](const Scene& scene) { return scene.model.simulation.timestep; }, "h [s].")
+      .def_prop_ro(
+          "duration", [](const Scene& scene) { return scene.model.simulation.duration; }, "[s].");
+}
+
+}  // namespace aspic::python

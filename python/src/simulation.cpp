@@ -1,0 +1,245 @@
+#include "simulation.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace aspic::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// With the GIL. Whether what a signal's handler does is no exception.
+void look_for_signals() {
+  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+}
+
+/// Without the GIL. True: an exception is set.
+bool signalled() {
+  const nb::gil_scoped_acquire own;
+  return PyErr_CheckSignals() != 0;
+}
+
+BackendChoice choice_of(const std::string& words, std::optional<bool> doubles, unsigned threads) {
+  BackendChoice asked;
+  if (doubles) asked.precision = *doubles ? Precision::double_ : Precision::single;
+  asked.threads = threads;
+  BackendChoice choice = take(parse_backend(words, asked));
+  // What its words leave open is as asked only where the backend has it: nobody should get less unawares.
+  if (choice.row != nullptr && doubles) choice.precision = asked.precision;
+  if (choice.row != nullptr && threads > 0) choice.threads = threads;
+  return choice;
+}
+
+}  // namespace
+
+void Chunk::took(std::uint64_t steps, double seconds) {
+  if (steps < size_) return;
+  if (seconds < 0.025) size_ = std::min<std::uint64_t>(2 * size_, 1u << 20);
+  if (seconds > 0.1) size_ = std::max<std::uint64_t>(size_ / 2, 1);
+}
+
+Simulation::Simulation(Scene scene, const std::string& backend, std::optional<bool> doubles, unsigned threads)
+    : scene_(std::move(scene)) {
+  const nb::gil_scoped_release others;
+  model_ = take(make_model(scene_.model));
+  backend_ = take(make_backend(choice_of(backend, doubles, threads), model_));
+}
+
+void Simulation::refuse_while_viewed() const {
+  if (views_ > 0)
+    throw nb::buffer_error(
+        "arrays of peek() show the state in the solver's memory: delete them, or use copies, before the "
+        "simulation changes");
+}
+
+Scene Simulation::scene() {
+  return alone([&] { return scene_; });
+}
+
+SharedModel Simulation::model() {
+  return alone([&] { return model_; });
+}
+
+std::uint64_t Simulation::step() {
+  return alone([&] { return step_; });
+}
+
+State Simulation::state() {
+  return alone([&] { return take(backend_.solver->state()); });
+}
+
+Measures Simulation::measures() {
+  return alone([&] { return measure(*model_, take(backend_.solver->state())); });
+}
+
+void Simulation::load(const State& state, const InputLog* log) {
+  alone([&] {
+    refuse_while_viewed();
+    check(backend_.solver->load(state));
+    step_ = state.step;
+    if (log != nullptr) log_ = *log;
+    check(backend_.solver->set_inputs(log_.at(step_)));
+  });
+}
+
+std::optional<Divergence> Simulation::advance_alone(std::uint64_t steps) {
+  refuse_while_viewed();
+  const auto divergence = take(aspic::advance(*backend_.solver, log_, step_, steps));
+  step_ = divergence ? divergence->step - 1 : step_ + steps;
+  return divergence;
+}
+
+std::optional<Divergence> Simulation::advance(std::uint64_t steps) {
+  Chunk chunk;
+  while (steps > 0) {
+    const std::uint64_t count = std::min(chunk.size(), steps);
+    const auto begin = Clock::now();
+    const auto divergence = alone([&] { return advance_alone(count); });
+    if (divergence) return divergence;
+    steps -= count;
+    chunk.took(count, seconds_since(begin));
+    look_for_signals();
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint64_t> Simulation::compare(Simulation& other, std::uint64_t steps) {
+  auto looked = Clock::now();
+  for (std::uint64_t i = 0; i < steps; ++i) {
+    bool diverged = false;
+    std::uint64_t step = 0;
+    State states[2];
+    Simulation* const both[2] = {this, &other};
+    for (std::size_t s = 0; s < 2; ++s) {
+      both[s]->alone([&] {
+        diverged = both[s]->advance_alone(1).has_value() || diverged;
+        states[s] = take(both[s]->backend_.solver->state());
+        step = std::max(step, states[s].step);
+      });
+    }
+    if (states[0].step != states[1].step || !take(compare_states(states[0], states[1])).identical())
+      return step;
+    if (diverged) return std::nullopt;
+    if (seconds_since(looked) < 0.05) continue;
+    look_for_signals();
+    looked = Clock::now();
+  }
+  return std::nullopt;
+}
+
+Result<std::optional<Divergence>> Simulation::film_alone(const FilmWish& wish, bool& stopped) {
+  PictureOutput output;
+  const std::filesystem::path path(wish.path);
+  (path.has_extension() ? output.video : output.frames) = wish.path;
+  output.size = wish.size;
+  output.fps = wish.fps;
+  output.speed = wish.speed;
+  output.text = wish.text;
+  const RunFacts facts = {to_toml(scene_), scene_.model.simulation.integrator};
+  auto files = take(RunFiles::open({}, output, facts, wish.overwrite ? Overwrite::allow : Overwrite::refuse));
+  const std::uint64_t last = step_ + wish.steps;
+  const auto recorder =
+      take(Recorder::create(output, scene_, backend_, files.take_frame_sinks(), step_, last));
+  std::optional<Divergence> divergence;
+  Chunk chunk;
+  while (true) {
+    check(recorder->reach(*backend_.solver, step_));
+    if (step_ == last || divergence || stopped) break;
+    const std::uint64_t count = std::min({recorder->next_step() - step_, last - step_, chunk.size()});
+    const auto begin = Clock::now();
+    divergence = advance_alone(count);
+    chunk.took(count, seconds_since(begin));
+    stopped = signalled();
+  }
+  check(recorder->finish(*backend_.solver, step_));
+  return divergence;
+}
+
+std::optional<Divergence> Simulation::film(const FilmWish& wish) {
+  bool stopped = false;
+  const auto divergence = alone([&] { return take(film_alone(wish, stopped)); });
+  if (stopped) throw nb::python_error();
+  return divergence;
+}
+
+std::vector<std::byte> Simulation::picture(const std::vector<std::string>& view, const PictureSize& size,
+                                           bool text) {
+  return alone([&] {
+    if (!painter_) painter_ = take(StillPainter::create(scene_, backend_));
+    const Scene shown = take(with_view(scene_, view));
+    return take(painter_->draw(shown.view, size, text));
+  });
+}
+
+void Simulation::update(const std::vector<std::string>& overrides) {
+  alone([&] {
+    refuse_while_viewed();
+    Scene changed = take(with_overrides(scene_, overrides));
+    const SharedModel model = take(make_model(changed.model));
+    check(backend_.solver->set_constants(model));
+    painter_.reset();
+    scene_ = std::move(changed);
+    model_ = model;
+  });
+}
+
+std::optional<ConstVectors> Simulation::begin_view(std::size_t field) {
+  return alone([&]() -> std::optional<ConstVectors> {
+    const auto view = backend_.solver->view();
+    if (!view) return std::nullopt;
+    ++views_;
+    return (*view)[field];
+  });
+}
+
+Inputs Simulation::inputs() {
+  return alone([&] { return log_.at(step_); });
+}
+
+void Simulation::set_inputs(const Inputs& inputs) {
+  alone([&] {
+    check(backend_.solver->set_inputs(inputs));
+    log_.set(step_, inputs);
+  });
+}
+
+InputLog Simulation::log() {
+  return alone([&] { return log_; });
+}
+
+void Simulation::set_log(InputLog log) {
+  alone([&] {
+    check(backend_.solver->set_inputs(log.at(step_)));
+    log_ = std::move(log);
+  });
+}
+
+std::string Simulation::log_text() {
+  return alone([&] { return to_toml(log_, scene_.model.simulation.timestep); });
+}
+
+void Simulation::write_state(const std::string& path, bool overwrite) {
+  alone([&] {
+    check(aspic::write_state(path, *model_, take(backend_.solver->state()),
+                             overwrite ? Overwrite::allow : Overwrite::refuse));
+  });
+}
+
+void Simulation::write_checkpoint(const std::string& path, bool overwrite) {
+  alone([&] {
+    const RunFacts facts = {to_toml(scene_), scene_.model.simulation.integrator,
+                            log_.empty() ? "" : to_toml(log_, scene_.model.simulation.timestep)};
+    auto files = take(RunFiles::open({{"checkpoint", path, {}}}, {}, facts,
+                                     overwrite ? Overwrite::allow : Overwrite::refuse));
+    const State state = take(backend_.solver->state());
+    check(files.take({*model_, state}));
+    check(files.finish({*model_, state}));
+  });
+}
+
+}  // namespace aspic::python

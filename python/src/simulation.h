@@ -1,0 +1,110 @@
+#pragma once
+// A scene, a solver and the inputs so far.
+#include <aspic/analysis.h>
+#include <aspic/inputs.h>
+#include <aspic/run.h>
+#include <aspic/scene.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "convert.h"
+#include "turns.h"
+
+namespace aspic::python {
+
+/// How a film is made.
+struct FilmWish {
+  std::string path;  ///< of a video where it has an ending, else a directory of pictures
+  std::uint64_t steps = 0;
+  std::optional<double> fps;
+  double speed = 1.0;
+  PictureSize size;
+  bool text = true, overwrite = false;
+};
+
+/// Steps between two looks at signals and other threads: as many as take about a twentieth of a second.
+class Chunk {
+ public:
+  std::uint64_t size() const { return size_; }
+  void took(std::uint64_t steps, double seconds);
+
+ private:
+  std::uint64_t size_ = 1;
+};
+
+/// Every call is one thread's at a time, and waits for its turn without the GIL. Those that step or draw look
+/// for signals between chunks of steps; what a signal raises leaves the state of a complete step. Errors are
+/// thrown as LibraryError.
+class Simulation {
+ public:
+  /// `doubles`: in double precision, absent: as the backend's words say.
+  Simulation(Scene scene, const std::string& backend, std::optional<bool> doubles, unsigned threads);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  // What does not change, or no other thread changes.
+  const Backend& backend() const { return backend_; }
+
+  /// Runs f alone, without the GIL: it may not touch Python.
+  template <class F>
+  auto alone(const F& f) {
+    const nb::gil_scoped_release others;
+    const std::lock_guard turn(turns_);
+    return f();
+  }
+
+  Scene scene();
+  SharedModel model();
+  std::uint64_t step();
+  State state();
+  /// Error (usage): numbers of another model.
+  void load(const State& state, const InputLog* log);
+  Measures measures();
+
+  /// The step that failed ends it.
+  std::optional<Divergence> advance(std::uint64_t steps);
+  std::optional<Divergence> film(const FilmWish& wish);
+  /// The first step whose states differ, of so many; both advance until there.
+  std::optional<std::uint64_t> compare(Simulation& other, std::uint64_t steps);
+
+  std::vector<std::byte> picture(const std::vector<std::string>& view, const PictureSize& size, bool text);
+  /// Another model of the same topology.
+  void update(const std::vector<std::string>& overrides);
+
+  Inputs inputs();
+  void set_inputs(const Inputs& inputs);
+  InputLog log();
+  void set_log(InputLog log);
+  std::string log_text();
+
+  void write_state(const std::string& path, bool overwrite);
+  void write_checkpoint(const std::string& path, bool overwrite);
+
+  /// A field of the state in the solver's memory, which nothing may change until end_view(). Nothing: it lies
+  /// on a device.
+  std::optional<ConstVectors> begin_view(std::size_t field);
+  void end_view() { --views_; }
+
+ private:
+  void refuse_while_viewed() const;
+  std::optional<Divergence> advance_alone(std::uint64_t steps);
+  Result<std::optional<Divergence>> film_alone(const FilmWish& wish, bool& signalled);
+
+  Turns turns_;
+  Scene scene_;
+  SharedModel model_;
+  Backend backend_;
+  InputLog log_;
+  std::uint64_t step_ = 0;
+  std::atomic<int> views_ = 0;
+  std::unique_ptr<StillPainter> painter_;  // after backend_, which it draws from
+};
+
+}  // namespace aspic::python

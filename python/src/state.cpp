@@ -1,0 +1,81 @@
+// States, and where two of them differ.
+#include <aspic/analysis.h>
+#include <aspic/state.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "convert.h"
+
+namespace aspic::python {
+namespace {
+
+using Numbers = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+
+std::vector<Vec3>& field_of(State& state, std::size_t field) {
+  if (field >= state_fields.size()) throw nb::index_error("no such field");
+  return state.*state_fields[field].vectors;
+}
+
+Array<double> read(State& state, std::size_t field) {
+  const std::vector<Vec3>& vectors = field_of(state, field);
+  std::vector<double> numbers;
+  numbers.reserve(3 * vectors.size());
+  for (const Vec3& v : vectors) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+  return as_array(std::move(numbers), {vectors.size(), 3});
+}
+
+void write(State& state, std::size_t field, const Numbers& numbers) {
+  std::vector<Vec3> vectors;
+  vectors.reserve(numbers.shape(0));
+  for (std::size_t i = 0; i < numbers.shape(0); ++i)
+    vectors.push_back({numbers.data()[3 * i], numbers.data()[3 * i + 1], numbers.data()[3 * i + 2]});
+  field_of(state, field) = std::move(vectors);
+}
+
+/// Quantity, largest difference and where, largest distance in ULP and where.
+using Row = std::tuple<std::string, double, std::uint32_t, std::uint64_t, std::uint32_t>;
+
+std::vector<Row> compare(const State& a, const State& b) {
+  const StateDifference difference = take(compare_states(a, b));
+  const QuantityDifference* const parts[] = {&difference.position, &difference.velocity,
+                                             &difference.ball_position, &difference.ball_velocity,
+                                             &difference.ball_angular_velocity};
+  std::vector<Row> rows;
+  for (std::size_t f = 0; f < state_fields.size(); ++f) {
+    const QuantityDifference& q = *parts[f];
+    rows.emplace_back(state_fields[f].name, q.absolute, q.absolute_index, q.ulp, q.ulp_index);
+  }
+  return rows;
+}
+
+}  // namespace
+
+void bind_state(nb::module_& module) {
+  module.def("compare_states", &compare, nb::arg("a"), nb::arg("b"), "Where two states differ most.");
+  nb::class_<State>(module, "State", "Positions and velocities after a number of steps.")
+      .def(
+          "__init__",
+          [](State* place, std::uint64_t step, bool doubles) {
+            new (place) State();
+            place->step = step;
+            place->precision = doubles ? Precision::double_ : Precision::single;
+          },
+          nb::arg("step"), nb::arg("doubles"))
+      .def(
+          "copy", [](const State& state) { return state; }, "Another one.")
+      .def("read", &read, nb::arg("field"), "A field, (n, 3), float64.")
+      .def("write", &write, nb::arg("field"), nb::arg("numbers"), "Replaces a field.")
+      .def_rw("step", &State::step, "Steps since the start.")
+      .def_prop_ro(
+          "doubles", [](const State& state) { return state.precision == Precision::double_; },
+          "Whether it was computed in double precision.")
+      .def_prop_ro(
+          "hash", [](const State& state) { return state_hash_text(state); }, "16 hexadecimal digits.");
+}
+
+}  // namespace aspic::python

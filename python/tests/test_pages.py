@@ -1,0 +1,74 @@
+"""The blocks of Python in the documentation run from top to bottom, and so do the examples."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import aspic
+import pytest
+from conftest import needs_pictures, root
+
+
+def blocks(page: str) -> list[tuple[int, str]]:
+    """Line and text of every block of Python."""
+    path = root / page
+    if not path.exists():
+        pytest.skip(f"{page} is not here")
+    text = path.read_text(encoding="utf-8")
+    found = [(text[: m.start(1)].count("\n"), m[1]) for m in re.finditer(r"^```python\n(.*?)^```$", text, re.M | re.S)]
+    assert found
+    return found
+
+
+@pytest.mark.parametrize("page", ["docs/python.md", "README.md"])
+def test_every_block_of_a_page_runs(page: str) -> None:
+    needs_pictures()
+    names: dict[str, object] = {}
+    for line, block in blocks(page):
+        exec(compile("\n" * line + block, str(root / page), "exec"), names)
+
+
+def test_the_readme_prints_a_hash_that_all_backends_have(capsys: pytest.CaptureFixture[str]) -> None:
+    text = "".join(block for _, block in blocks("README.md"))
+    hashes = set()
+    for backend in ("reference", "cpu", "gpu"):
+        if backend == "gpu":
+            needs_pictures()
+        exec(text.replace("aspic.Simulation(scene)", f"aspic.Simulation(scene, {backend!r})"), {})
+        hashes.add(capsys.readouterr().out.split()[-1])
+    assert len(hashes) == 1 and len(hashes.pop()) == 16
+
+
+EXAMPLES = {
+    "integrators.py": (
+        ["--seconds", "0.05", "--particles", "3"],
+        r"explicit-euler +[-\d.e]+ .*\n(.*\n)+implicit-euler",
+    ),
+    "stiffness.py": (["--particles", "3", "--stiffness", "1000", "4000"], r"k = +4000 N/m: down to \d"),
+    "throw.py": ([], r"cpu ([0-9a-f]{16}), replayed on reference \1\n"),
+}
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_examples_run(name: str) -> None:
+    path = root / "examples/python" / name
+    if not path.exists():
+        pytest.skip("the examples are not here")
+    words, says = EXAMPLES[name]
+    # A process that spawn starts finds the package as this one did.
+    here = str(pathlib.Path(aspic.__file__).parents[1])
+    done = subprocess.run(
+        [sys.executable, path, *words], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": here}
+    )
+    assert done.returncode == 0, done.stderr
+    assert re.search(says, done.stdout), done.stdout
+
+
+def test_no_example_is_forgotten() -> None:
+    folder = root / "examples/python"
+    if folder.exists():
+        assert {path.name for path in folder.glob("*.py")} == set(EXAMPLES)
+        page = (root / "docs/python.md").read_text(encoding="utf-8")
+        assert all(f"examples/python/{name}" in page for name in EXAMPLES)

@@ -1,0 +1,118 @@
+"""Pictures and films."""
+
+import os
+import pathlib
+import shutil
+import signal
+import threading
+from typing import Any
+
+import aspic
+import numpy as np
+import pytest
+from conftest import needs_pictures, read_png, simulation
+
+
+def test_a_picture_is_an_array_that_notebooks_show(sim: aspic.Simulation) -> None:
+    needs_pictures()
+    picture = sim.render(96, 54)
+    assert picture.shape == (54, 96, 3) and picture.dtype == np.uint8 and len(np.unique(picture)) > 20
+    shown = picture._repr_png_()
+    assert shown is not None and np.array_equal(read_png(shown), picture)
+    picture.save("a.png")
+    assert pathlib.Path("a.png").read_bytes() == shown
+    assert picture[10]._repr_png_() is None and "96 × 54" in repr(picture) and repr(picture[0, 0]).startswith("Picture")
+    part = picture[::2, 5:40]
+    assert np.array_equal(read_png(part.png()), part)
+    with pytest.raises(ValueError, match="no picture"):
+        picture[0].png()
+    assert type(picture / 2) is np.ndarray and isinstance(picture.sum(), np.integer)
+
+
+def test_all_backends_give_the_same_picture_which_is_a_films(scene: aspic.Scene) -> None:
+    needs_pictures()
+    pictures = []
+    for backend in ("reference", "gpu"):
+        sim = simulation(scene, backend)
+        sim.step(120)
+        pictures.append(sim.render(80, 45))
+    assert np.array_equal(pictures[0], pictures[1])
+    sim.film("frames", steps=50, fps=40, width=80, height=45)
+    frames = sorted(pathlib.Path("frames").iterdir())
+    assert len(frames) >= 3 and sim.steps == 170
+    assert np.array_equal(read_png(frames[0].read_bytes()), pictures[0])
+    assert np.array_equal(read_png(frames[-1].read_bytes()), sim.render(80, 45))
+
+
+def test_a_view_holds_for_one_picture(scene: aspic.Scene) -> None:
+    needs_pictures()
+    sim = aspic.Simulation(scene, "cpu")
+    sim.step(400)
+    plain = sim.render(80, 45, text=False)
+    assert not np.array_equal(sim.render(320, 180), sim.render(320, 180, text=False))
+    strain = sim.render(80, 45, {"colour": "strain", "camera.position": [6, 4, 6]}, text=False)
+    assert not np.array_equal(plain, strain)
+    assert np.array_equal(plain, sim.render(80, 45, text=False))
+    with pytest.raises(aspic.SceneError, match="did you mean 'colour'"):
+        sim.render(view={"color": "strain"})
+    for size in ((0, 45), (80, -1), (10**6, 10**6)):
+        with pytest.raises(aspic.Error):
+            sim.render(*size)
+
+
+def test_balls_are_drawn_by_the_state_alone() -> None:
+    needs_pictures()
+    sim = aspic.Simulation("cube-and-balls", "cpu")
+    sim.render(80, 45)
+    sim.step(150)
+    other = aspic.Simulation("cube-and-balls", "cpu")
+    other.step(150)
+    assert np.array_equal(sim.render(80, 45), other.render(80, 45))
+
+
+def test_pictures_follow_other_constants(scene: aspic.Scene) -> None:
+    needs_pictures()
+    sim = aspic.Simulation(scene, "cpu")
+    before = sim.render(480, 270)
+    sim.update({"simulation.timestep": 5e-4})
+    assert not np.array_equal(sim.render(480, 270), before)  # the text names the time step
+
+
+@pytest.mark.skipif(not shutil.which("ffmpeg"), reason="films need ffmpeg")
+def test_films_are_written_and_not_overwritten(scene: aspic.Scene) -> None:
+    needs_pictures()
+    sim = aspic.Simulation(scene, "cpu")
+    sim.film("a.mp4", 0.1, width=64, height=36)
+    assert pathlib.Path("a.mp4").stat().st_size > 500 and sim.steps == 100
+    with pytest.raises(aspic.FileError, match="exists"):
+        sim.film("a.mp4", 0.1, width=64, height=36)
+    assert sim.steps == 100
+    with pytest.raises(aspic.Error):
+        sim.film("a.xyz", 0.1)
+    sim.film("a.mp4", 0.05, width=64, height=36, overwrite=True)
+
+
+def test_a_film_of_a_divergence_is_complete(scene: aspic.Scene) -> None:
+    needs_pictures()
+    sim = aspic.Simulation(scene.copy({"simulation.timestep": 0.1}), "cpu")
+    with pytest.raises(aspic.DivergedError):
+        sim.film("frames", 100.0, fps=10, width=64, height=36)
+    assert len(list(pathlib.Path("frames").iterdir())) >= sim.steps
+
+
+def test_ctrl_c_completes_a_film(scene: aspic.Scene) -> None:
+    needs_pictures()
+    sim = aspic.Simulation(scene, "cpu")
+
+    def stop() -> None:
+        while not list(pathlib.Path("frames").glob("*.png")):
+            pass
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread: Any = threading.Thread(target=stop)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        sim.film("frames", steps=10**9, width=64, height=36)
+    thread.join()
+    last = sorted(pathlib.Path("frames").glob("*.png"))[-1]
+    assert np.array_equal(read_png(last.read_bytes()), sim.render(64, 36))
