@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -137,6 +138,9 @@ struct PinnedSettings {
   friend bool operator==(const PinnedSettings&, const PinnedSettings&) = default;
 };
 
+/// Of the library: how it makes a model of a kind of body. Each kind declares its own.
+struct BodyRow;
+
 /// A cube of particles, n³ in a lattice; or a box, whose neighbours are equally far apart in all directions.
 struct CubeSettings {
   int particles_per_edge = 10;                       ///< n, ≥ 2; without `particles`
@@ -154,6 +158,7 @@ struct CubeSettings {
   std::array<int, 3> lattice() const {
     return particles.value_or(std::array{particles_per_edge, particles_per_edge, particles_per_edge});
   }
+  friend BodyRow row_of(const CubeSettings&);
 };
 
 /// Springs of a net that may be left out.
@@ -172,6 +177,7 @@ struct GoalNetSettings {
   SpringSettings structural = {1500.0, 50.0};  ///< between neighbours
   OptionalSpringSettings shear, bending;       ///< none by default
   bool cord = false;                           ///< springs resist stretch only
+  friend BodyRow row_of(const GoalNetSettings&);
 };
 
 /// A rectangular cloth: w × h particles, in the x–y plane before it is turned.
@@ -187,6 +193,7 @@ struct ClothSettings {
 
   /// Particles along each axis: one layer.
   std::array<int, 3> lattice() const { return {particles[0], particles[1], 1}; }
+  friend BodyRow row_of(const ClothSettings&);
 };
 
 /// A ball: a solid sphere, inertia 2/5·m·R².
@@ -196,6 +203,7 @@ struct BallSettings {
   Vec3 position = {7.0, 2.6, 2.0};          ///< of the centre [m]
   Vec3 velocity = {-49.0, -14.0, -7.0};     ///< [m/s]
   Vec3 angular_velocity = {0.0, 0.0, 0.0};  ///< ω [rad/s]
+  friend BodyRow row_of(const BallSettings&);
 };
 
 /// A box from which points are drawn.
@@ -218,6 +226,7 @@ struct LauncherSettings {
   BoxSettings towards = {{0.0, 0.6, 0.0}, {0.0, 0.6, 2.0}};  ///< targets are drawn from it
   double speed_factor = 7.0;  ///< [1/s], velocity = factor · (target − start)
   LaunchedBallSettings ball;  ///< all alike
+  friend BodyRow row_of(const LauncherSettings&);
 };
 
 /// Everything the physics needs from a scene.
@@ -231,6 +240,11 @@ struct ModelSettings {
   std::vector<BallSettings> balls;          ///< there from step 0
   std::vector<LauncherSettings> launchers;  ///< their balls come one by one
 };
+
+/// The kinds of bodies, in the order in which the model makes them and files list them.
+inline constexpr std::tuple body_lists = {&ModelSettings::cubes, &ModelSettings::goal_nets,
+                                          &ModelSettings::cloths, &ModelSettings::balls,
+                                          &ModelSettings::launchers};
 
 /// Names in scene files and reports.
 ASPIC_API std::string_view name_of(Integrator integrator);

@@ -1,14 +1,20 @@
 #include "model/bodies.h"
 
+#include <tuple>
 #include <vector>
 
 namespace aspic {
+namespace {
+
+template <class Element>
+Element element_of(std::vector<Element> ModelSettings::*);
+
+}  // namespace
 
 std::span<const BodyRow> body_rows() {
   static const std::vector<BodyRow> rows = [] {
     std::vector<BodyRow> all;
-    for (BodyRow (*const row)() : {cube_row, goal_net_row, cloth_row, ball_row, launcher_row})
-      all.push_back(row());
+    std::apply([&](auto... list) { (all.push_back(row_of(decltype(element_of(list))())), ...); }, body_lists);
     return all;
   }();
   return rows;
@@ -23,7 +29,7 @@ std::span<const SettingsList> settings_lists() {
   return lists;
 }
 
-BodyRow ball_row() {
+BodyRow row_of(const BallSettings&) {
   constexpr auto one = [](const BallSettings&) {
     ModelCounts counts;
     counts.balls = 1;

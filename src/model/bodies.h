@@ -64,14 +64,7 @@ BodyRow body_row(std::string_view key, std::string_view size_key, const PinNames
   return row;
 }
 
-/// The kinds, each in its own file.
-BodyRow cube_row();
-BodyRow goal_net_row();
-BodyRow cloth_row();
-BodyRow ball_row();
-BodyRow launcher_row();
-
-/// All of them, in the order in which the model makes them and files list them.
+/// All of them, in the order of body_lists.
 std::span<const BodyRow> body_rows();
 
 /// Every list of a scene file: terrain, then the bodies.

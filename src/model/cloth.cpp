@@ -101,7 +101,7 @@ Status add_cloth(Model& model, const ClothSettings& cloth) {
 
 }  // namespace
 
-BodyRow cloth_row() {
+BodyRow row_of(const ClothSettings&) {
   return body_row<&ModelSettings::cloths, counts_of, add_cloth>("cloth", "particles", &cloth_pins);
 }
 

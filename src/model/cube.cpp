@@ -117,7 +117,7 @@ Status add_cube(Model& model, const CubeSettings& cube) {
   return {};
 }
 
-BodyRow cube_row() {
+BodyRow row_of(const CubeSettings&) {
   constexpr auto counts = [](const CubeSettings& cube) { return box_counts(cube.lattice()); };
   BodyRow row = body_row<&ModelSettings::cubes, counts, add_cube>("cube", "particles-per-edge", &cube_pins);
   row.size_keys.emplace_back("particles");

@@ -172,7 +172,7 @@ Status add_goal_net(Model& model, const GoalNetSettings& net) {
 
 }  // namespace
 
-BodyRow goal_net_row() {
+BodyRow row_of(const GoalNetSettings&) {
   return body_row<&ModelSettings::goal_nets, goal_net_counts, add_goal_net>("goal-net", "particles");
 }
 

@@ -44,7 +44,7 @@ Ball launched_ball(const LauncherSettings& launcher, std::uint64_t n, double tim
   return ball;
 }
 
-BodyRow launcher_row() {
+BodyRow row_of(const LauncherSettings&) {
   constexpr auto counts = [](const LauncherSettings& launcher) {
     ModelCounts all;
     all.balls = static_cast<std::uint64_t>(launcher.count);
