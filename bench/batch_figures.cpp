@@ -23,13 +23,6 @@ constexpr std::size_t instances = 1000;
 /// Of a measurement: in this time nothing meets the ground, or all of it lies there.
 constexpr std::uint64_t steps = 100;
 
-template <class T>
-T checked(Result<T> made) {
-  if (made) return std::move(*made);
-  fmt::print(stderr, "{}\n", made.error().message());
-  std::exit(1);
-}
-
 /// Cubes that differ in place, gravity and stiffness.
 std::vector<SharedModel> models() {
   std::vector<SharedModel> made;
