@@ -56,7 +56,7 @@ class App final : public EventReceiver {
   /// take the app on then (replace_window).
   Status frame(const WindowSize& size, double dt);
   /// Releases all that the context holds, while it is still current: films are completed as far as they
-  /// came, a run that needs the context continues on the reference from the last copy, and a message will
+  /// came, a run that needs the context continues on the processor from the last copy, and a message will
   /// say so.
   Status release_context(const Error& why);
   /// Continues in another context, current from now on, after release_context(). Errors as create().

@@ -119,8 +119,9 @@ Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup
   }
   std::optional<Error> departure;
   if (!leader && Engines::in_context(like.leader())) {
-    departure = {leader.error().code, fmt::format("{} The reference takes over.", leader.error().what)};
-    leader = make(model, reference_backend(), nullptr);
+    departure = {leader.error().code,
+                 fmt::format("{} The {} takes over.", leader.error().what, contextless_backend().title)};
+    leader = make(model, contextless_backend(), nullptr);
   }
   if (!leader) return leader.error();
   Engines engines(model, std::move(*leader), {});

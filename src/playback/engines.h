@@ -106,8 +106,8 @@ class EngineFactory {
   /// Errors: of make_backend().
   Result<Backend> make(const SharedModel& model, const BackendRow& row, const GpuSolver* like);
   /// A model with solvers on the same backends as `like`. Where a leader in the context refuses the model the
-  /// reference takes its place without a shadow, as `departure` says. Without solvers in the context it may
-  /// run on another thread.
+  /// contextless_backend() takes its place without a shadow, as `departure` says. Without solvers in the
+  /// context it may run on another thread.
   Result<Engines> make_like(const Engines& like, const Setup& setup);
 
  private:

@@ -64,7 +64,7 @@ class Rebuild {
   /// Shadow mode: a backend that is not the leader does the same steps, and the states are compared. Null
   /// ends it.
   Status set_shadow(const BackendRow* backend);
-  /// Before the context goes: a run that needs it continues on the reference, from the last copy;
+  /// Before the context goes: a run that needs it continues on contextless_backend(), from the last copy;
   /// Simulation::take_message() tells `why`.
   Status leave_context(const Error& why);
   /// The context of solvers to come, after leave_context().

@@ -48,7 +48,8 @@ class Simulation {
   const State& snapshot() const { return present_.snapshot(); }
   /// Reads the state back; of a backend outside the context the newest that is finished.
   Status refresh_snapshot() { return stepper_.refresh_snapshot(); }
-  /// What happened unasked since the last call, in a sentence: a backend failed and the reference continues.
+  /// What happened unasked since the last call, in a sentence: a backend failed and contextless_backend()
+  /// continues.
   std::optional<Error> take_message() { return present_.take_message(); }
 
   // ---- motion ----
@@ -64,7 +65,7 @@ class Simulation {
   const std::optional<Pull>& hand() const { return stepper_.hand(); }
   /// Once for each picture: takes what the solver finished and sets it to work again for at most about
   /// `budget` seconds. `dt` is the time since the last call [s]. A backend that fails in the context is
-  /// replaced by the reference, see take_message().
+  /// replaced by contextless_backend(), see take_message().
   Status update(double dt, double budget);
   /// Ends the work in progress, so that snapshot() is the state to the step; waits for a way through history
   /// only to `arrive`.

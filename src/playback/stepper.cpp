@@ -291,7 +291,7 @@ Status Stepper::fall_back(const Error& error) {
     present_.tell({error.code, fmt::format("{} Shadow mode has ended.", error.what)});
     return load(copy);  // the leader may be steps ahead of what was taken from it
   }
-  ASPIC_TRY(auto engine, factory_.make(engines.shared_model(), reference_backend(), nullptr));
+  ASPIC_TRY(auto engine, factory_.make(engines.shared_model(), contextless_backend(), nullptr));
   engines.set_leader(std::move(engine));
   const std::uint64_t step = present_.step(), lost = step > copy.step ? step - copy.step : 0;
   History& history = timeline_.history();
@@ -300,9 +300,9 @@ Status Stepper::fall_back(const Error& error) {
   // Its remedy is this one.
   present_.tell(
       {error.code,
-       fmt::format("{} The reference continues from the last copy, {:.2f} s old (t = {:.6g} s; {} steps are "
+       fmt::format("{} The {} continues from the last copy, {:.2f} s old (t = {:.6g} s; {} steps are "
                    "repeated).",
-                   error.what, present_.snapshot_age(),
+                   error.what, contextless_backend().title, present_.snapshot_age(),
                    static_cast<double>(copy.step) * present_.model().simulation.timestep, lost)});
   return load(copy);
 }

@@ -208,6 +208,10 @@ std::span<const BackendRow> backends() {
   return table;
 }
 
+const BackendRow& contextless_backend() {
+  return *std::ranges::find(backends(), false, &BackendRow::needs_context);
+}
+
 const BackendRow* find_backend(std::string_view name) {
   const auto* const found = std::ranges::find(table, name, &BackendRow::name);
   return found == std::end(table) ? nullptr : found;

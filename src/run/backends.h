@@ -51,6 +51,8 @@ std::span<const BackendRow> backends();
 inline const BackendRow& reference_backend() {
   return backends().back();
 }
+/// The first that needs no OpenGL context: it takes over where a device is lost.
+const BackendRow& contextless_backend();
 /// The row of that name; null if there is none.
 const BackendRow* find_backend(std::string_view name);
 /// The row after it in the table, the first after the last or a row of no table.
