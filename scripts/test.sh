@@ -21,7 +21,7 @@ full      core, and by label:
   framing      how much of the picture bodies fill, in every built-in scene
   verify       aspic verify --quick
   window       the rest of the window's tests
-  report       the report's page, in a browser
+  report       the report's page in a browser, and on paper
   independent  the independent implementation of the physics
   packages     the Python package from source distribution to wheel to a fresh environment
   attack       damaged files, limits, faults and kills (scripts/attack.sh)
