@@ -11,6 +11,7 @@ numbers are in SI units.
 """
 
 from . import _aspic
+from ._batch import Batch, Instance
 from ._body import Ball, Body
 from ._errors import (
     CheckError,
@@ -28,12 +29,14 @@ from ._reading import Measures, Springs
 from ._scene import BuiltinScene, Parameter, Scene, load, parameters, scenes
 from ._simulation import Simulation, resume
 from ._state import Difference, QuantityDifference, State, compare
-from ._trajectory import Energy, Trajectory
+from ._trajectory import BatchTrajectory, Energy, Trajectory
 
 __version__: str = _aspic.version
 
 __all__ = [
     "Ball",
+    "Batch",
+    "BatchTrajectory",
     "Body",
     "BuiltinScene",
     "CheckError",
@@ -44,6 +47,7 @@ __all__ = [
     "Error",
     "ErrorCode",
     "FileError",
+    "Instance",
     "InterruptedRun",
     "Measures",
     "Parameter",

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from . import _aspic
 from ._errors import UsageError
 from ._reading import Readable
 
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Pull", "Steerable"]
+__all__ = ["Pull", "Replayable", "Steerable"]
 
 
 class Pull(NamedTuple):
@@ -32,7 +33,7 @@ class Pull(NamedTuple):
 
 
 class Steerable(Readable):
-    """The part of a simulation that takes inputs."""
+    """The part of a simulation or of an instance of a batch that takes inputs."""
 
     @property
     def pulls(self) -> tuple[Pull, ...]:
@@ -77,6 +78,12 @@ class Steerable(Readable):
         scene = set(self._core.pinned().tolist())
         pulls, _, _, channels = self._core.inputs()
         self._core.set_inputs((pulls, sorted(wanted - scene), sorted(scene - wanted), channels))
+
+
+class Replayable(Steerable):
+    """The part of a simulation that keeps its inputs by step."""
+
+    _core: _aspic.Simulation
 
     @property
     def input_log(self) -> str:

@@ -1,4 +1,4 @@
-"""What a simulation is, and where it is."""
+"""What a simulation or an instance of a batch is, and where it is."""
 
 from __future__ import annotations
 
@@ -52,9 +52,9 @@ class Springs(NamedTuple):
 
 
 class Readable:
-    """The part of a simulation that reads it."""
+    """The part of a simulation or of an instance of a batch that reads it."""
 
-    _core: _aspic.Simulation
+    _core: _aspic.Simulation | _aspic.Instance
 
     # What it is.
 
@@ -62,21 +62,6 @@ class Readable:
     def scene(self) -> Scene:
         """A copy of the scene as it is simulated."""
         return Scene._of(self._core.scene)
-
-    @property
-    def backend(self) -> str:
-        """``"gpu:gather"``, ``"cpu"``, ``"reference:double"``: what computes, with its options."""
-        return self._core.variant
-
-    @property
-    def device(self) -> str:
-        """The driver's name of the device, or what the solver says of itself."""
-        return self._core.device
-
-    @property
-    def reason(self) -> str:
-        """Why ``"auto"`` took this backend; empty if it was named."""
-        return self._core.reason
 
     @property
     def precision(self) -> str:
@@ -155,17 +140,6 @@ class Readable:
             raise UsageError(f"out has to have the shape {(count, 3)}, not {out.shape}")
         self._core.read_into(index, out)
         return out
-
-    def peek(self, field: str) -> Any:
-        """A field of the state in the solver's memory, without a copy: a read-only array (n, 3), with strides.
-
-        While such an array exists, what would change the state raises BufferError. Raises UsageError on the backend
-        gpu, whose state is on the device.
-        """
-        shown = self._core.view(field_index(field))
-        if shown is None:
-            raise UsageError(f"the state of the backend {self.backend} is on the device: use read(), which copies it")
-        return shown
 
     @property
     def positions(self) -> Floats:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal, Union
 
 from . import _aspic
 from ._errors import SceneError, UsageError, diverged
-from ._inputs import Steerable
+from ._inputs import Replayable
 from ._scene import Scene, assignments, load
-from ._state import State
+from ._state import State, field_index
 from ._trajectory import Recorder, Trajectory
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ __all__ = ["Simulation", "resume"]
 Path = Union[str, "os.PathLike[str]"]
 
 
-class Simulation(Steerable):
+class Simulation(Replayable):
     """A scene, the solver that steps it, and the inputs so far.
 
     Every number is in SI units; arrays are fresh copies, (n, 3), float32, or float64 in double precision. All backends
@@ -54,6 +54,34 @@ class Simulation(Steerable):
             raise UsageError(f"a number of threads is 1 to 1024, or 0 for as many as are worthwhile, not {threads}")
         doubles = None if precision is None else precision == "double"
         self._core = _aspic.Simulation(scene._core, backend, doubles, threads)
+
+    # What computes.
+
+    @property
+    def backend(self) -> str:
+        """``"gpu:gather"``, ``"cpu"``, ``"reference:double"``: what computes, with its options."""
+        return self._core.variant
+
+    @property
+    def device(self) -> str:
+        """The driver's name of the device, or what the solver says of itself."""
+        return self._core.device
+
+    @property
+    def reason(self) -> str:
+        """Why ``"auto"`` took this backend; empty if it was named."""
+        return self._core.reason
+
+    def peek(self, field: str) -> Any:
+        """A field of the state in the solver's memory, without a copy: a read-only array (n, 3), with strides.
+
+        While such an array exists, what would change the state raises BufferError. Raises UsageError on the backend
+        gpu, whose state is on the device.
+        """
+        shown = self._core.view(field_index(field))
+        if shown is None:
+            raise UsageError(f"the state of the backend {self.backend} is on the device: use read(), which copies it")
+        return shown
 
     # Steps.
 

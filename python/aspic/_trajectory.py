@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from ._reading import Measures
     from ._simulation import Simulation
 
-__all__ = ["Energy", "Trajectory"]
+__all__ = ["BatchTrajectory", "Energy", "Trajectory"]
 
 
 class Energy(NamedTuple):
-    """Energies [J]: numbers of one state, or arrays (t,) of a trajectory."""
+    """Energies [J]: numbers of one state, or arrays of several: (t,) of a trajectory, (n, t) of a batch's."""
 
     kinetic: Any
     """Σ ½ m v², of balls also ½ I ω²."""
@@ -36,23 +36,16 @@ class Energy(NamedTuple):
         return self.kinetic + self.elastic + self.gravitational
 
 
-class Trajectory(Mapping[str, Any]):
-    """What ``Simulation.run()`` recorded: ``trajectory["energy"].total``, ``trajectory["cube[0].centre-of-mass"]``.
+class Series(Mapping[str, Any]):
+    """Arrays by the names that they were recorded by."""
 
-    Arrays have the samples first: positions (t, n, 3), a centre of mass (t, 3), a speed (t,).
-    """
-
-    def __init__(self, steps: Any, time: Any, series: dict[str, Any]):
-        self.steps: NDArray[np.int64] = steps
-        """Steps since the start, (t,)."""
-        self.time: NDArray[np.float64] = time
-        """[s], (t,)."""
+    def __init__(self, series: dict[str, Any]):
         self._series = series
 
     def __getitem__(self, name: str) -> Any:
         if name in self._series:
             return self._series[name]
-        raise UsageError(f"{name!r} was not recorded; this trajectory has {', '.join(self._series)}")
+        raise UsageError(f"{name!r} was not recorded; this trajectory has {', '.join(self._series) or 'nothing'}")
 
     def get(self, name: str, default: Any = None) -> Any:
         """A series, or ``default`` where it was not recorded."""
@@ -68,11 +61,8 @@ class Trajectory(Mapping[str, Any]):
         return list(self._series)
 
     def __len__(self) -> int:
-        """How many series there are; ``len(trajectory.time)`` counts samples."""
+        """How many series there are; ``time.shape`` counts samples."""
         return len(self._series)
-
-    def __repr__(self) -> str:
-        return f"<aspic.Trajectory: {len(self.time)} samples of {', '.join(self._series) or 'nothing'}>"
 
     def _flat(self) -> dict[str, Any]:
         """Arrays alone: an energy becomes three."""
@@ -84,34 +74,60 @@ class Trajectory(Mapping[str, Any]):
                 flat[name] = value
         return flat
 
-    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes a compressed .npz of numpy, with ``steps`` and ``time``.
-
-        Raises UsageError where the name has another ending; FileExistsError unless ``overwrite``.
-        """
+    def _savez(self, path: str | os.PathLike[str], overwrite: bool, **more: Any) -> None:
         import numpy as np
 
         if not os.fspath(path).endswith(".npz"):
             raise UsageError(f"a trajectory is saved as .npz, not as {os.fspath(path)!r}")
         with open(path, "wb" if overwrite else "xb") as file:
-            np.savez_compressed(file, steps=self.steps, time=self.time, **self._flat())
+            np.savez_compressed(file, **more, **self._flat())
+
+
+def _loadz(path: str | os.PathLike[str], *more: str) -> tuple[list[Any], dict[str, Any]]:
+    """The arrays ``more``, and the series."""
+    import numpy as np
+
+    with np.load(path, allow_pickle=False) as file:
+        arrays = {name: file[name] for name in file.files}
+    others = [arrays.pop(name) for name in more]
+    series: dict[str, Any] = {}
+    for name, array in arrays.items():
+        base, _, part = name.rpartition(".")
+        if base.split(".")[-1] == "energy" and part in Energy._fields:
+            series.setdefault(base, {})[part] = array
+        else:
+            series[name] = array
+    return others, {n: Energy(**v) if isinstance(v, dict) else v for n, v in series.items()}
+
+
+class Trajectory(Series):
+    """What ``Simulation.run()`` recorded: ``trajectory["energy"].total``, ``trajectory["cube[0].centre-of-mass"]``.
+
+    Arrays have the samples first: positions (t, n, 3), a centre of mass (t, 3), a speed (t,).
+    """
+
+    def __init__(self, steps: Any, time: Any, series: dict[str, Any]):
+        super().__init__(series)
+        self.steps: NDArray[np.int64] = steps
+        """Steps since the start, (t,)."""
+        self.time: NDArray[np.float64] = time
+        """[s], (t,)."""
+
+    def __repr__(self) -> str:
+        return f"<aspic.Trajectory: {len(self.time)} samples of {', '.join(self._series) or 'nothing'}>"
+
+    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
+        """Writes a compressed .npz of numpy, with ``steps`` and ``time``.
+
+        Raises UsageError where the name has another ending; FileExistsError unless ``overwrite``.
+        """
+        self._savez(path, overwrite, steps=self.steps, time=self.time)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Trajectory:
         """Reads what ``save()`` wrote. Raises what ``numpy.load()`` raises."""
-        import numpy as np
-
-        with np.load(path, allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
-        steps, time = arrays.pop("steps"), arrays.pop("time")
-        series: dict[str, Any] = {}
-        for name, array in arrays.items():
-            base, _, part = name.rpartition(".")
-            if base.split(".")[-1] == "energy" and part in Energy._fields:
-                series.setdefault(base, {})[part] = array
-            else:
-                series[name] = array
-        return cls(steps, time, {n: Energy(**v) if isinstance(v, dict) else v for n, v in series.items()})
+        (steps, time), series = _loadz(path, "steps", "time")
+        return cls(steps, time, series)
 
     def to_xarray(self) -> Any:
         """An ``xarray.Dataset`` with the coordinate ``time``; needs the package xarray."""
@@ -122,6 +138,45 @@ class Trajectory(Mapping[str, Any]):
             others = {1: [], 2: ["axis"], 3: [f"{name}.particle", "axis"]}[array.ndim]
             variables[name] = (["time", *others], array)
         return xarray.Dataset(variables, coords={"time": self.time, "step": ("time", self.steps)})
+
+
+class BatchTrajectory(Series):
+    """What ``Batch.run()`` recorded: ``out["centre-of-mass"]``, ``out["energy"].total``, ``out["cube[0].positions"]``.
+
+    Arrays have the instance first, then the sample: a centre of mass (n, t, 3), positions (n, t, p, 3). The rows after
+    a divergence repeat the last good state.
+    """
+
+    def __init__(self, time: Any, diverged: Any, hashes: list[str], series: dict[str, Any]):
+        super().__init__(series)
+        self.time: NDArray[np.float64] = time
+        """Of each instance's samples, (n, t) [s]: its steps × its h."""
+        self.diverged: NDArray[np.int64] = diverged
+        """The step that failed, (n,); 0: the instance did not diverge."""
+        self.hash: list[str] = hashes
+        """Of each instance's last state: what ``Simulation.hash`` of its scene alone is."""
+
+    def __repr__(self) -> str:
+        instances, samples = self.time.shape
+        return (
+            f"<aspic.BatchTrajectory: {instances} instances, {samples} samples of "
+            f"{', '.join(self._series) or 'nothing'}>"
+        )
+
+    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
+        """Writes a compressed .npz of numpy, with ``time``, ``diverged`` and ``hash``.
+
+        Raises UsageError where the name has another ending; FileExistsError unless ``overwrite``.
+        """
+        import numpy as np
+
+        self._savez(path, overwrite, time=self.time, diverged=self.diverged, hash=np.array(self.hash))
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> BatchTrajectory:
+        """Reads what ``save()`` wrote. Raises what ``numpy.load()`` raises."""
+        (time, diverged, hashes), series = _loadz(path, "time", "diverged", "hash")
+        return cls(time, diverged, hashes.tolist(), series)
 
 
 # What may be recorded: of a state's measures, of all particles or of a body.

@@ -38,6 +38,12 @@ inline void check(const Status& status) {
   if (!status) throw LibraryError(status.error());
 }
 
+/// Without the GIL. True: a signal's handler raised an exception, which is set.
+inline bool signalled() {
+  const nb::gil_scoped_acquire own;
+  return PyErr_CheckSignals() != 0;
+}
+
 /// Has LibraryError raised as the exception of its code.
 void register_errors();
 
@@ -56,5 +62,6 @@ Array<T> as_array(std::vector<T> numbers, std::initializer_list<std::size_t> sha
 void bind_scene(nb::module_& module);
 void bind_state(nb::module_& module);
 void bind_simulation(nb::module_& module);
+void bind_batch(nb::module_& module);
 
 }  // namespace aspic::python

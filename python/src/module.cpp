@@ -29,4 +29,5 @@ NB_MODULE(_aspic, module) {
   bind_scene(module);
   bind_state(module);
   bind_simulation(module);
+  bind_batch(module);
 }

@@ -18,12 +18,6 @@ void look_for_signals() {
   if (PyErr_CheckSignals() != 0) throw nb::python_error();
 }
 
-/// Without the GIL. True: an exception is set.
-bool signalled() {
-  const nb::gil_scoped_acquire own;
-  return PyErr_CheckSignals() != 0;
-}
-
 BackendChoice choice_of(const std::string& words, std::optional<bool> doubles, unsigned threads) {
   BackendChoice asked;
   if (doubles) asked.precision = *doubles ? Precision::double_ : Precision::single;
@@ -71,6 +65,10 @@ std::uint64_t Simulation::step() {
 
 State Simulation::state() {
   return alone([&] { return take(backend_.solver->state()); });
+}
+
+std::uint64_t Simulation::read_into(const StateView& view) {
+  return alone([&] { return take(backend_.solver->read_into(view)); });
 }
 
 Measures Simulation::measures() {

@@ -63,7 +63,10 @@ class Simulation {
   Scene scene();
   SharedModel model();
   std::uint64_t step();
+  bool doubles() const { return backend_.solver->precision() == Precision::double_; }
   State state();
+  /// As Solver::read_into().
+  std::uint64_t read_into(const StateView& view);
   /// Error (usage): numbers of another model.
   void load(const State& state, const InputLog* log);
   Measures measures();

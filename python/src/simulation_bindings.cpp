@@ -1,66 +1,14 @@
 // The class _aspic.Simulation.
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/vector.h>
-
 #include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "reading.h"
 #include "simulation.h"
 
 namespace aspic::python {
 namespace {
-
-/// Step, particle or ball, whether it is a ball, and what happened, in words.
-using Diverged = std::optional<std::tuple<std::uint64_t, std::uint32_t, bool, std::string>>;
-/// Particle or ball, anchor, stiffness, damping, whether it is a ball.
-using PullRow = std::tuple<std::uint32_t, std::tuple<double, double, double>, double, double, bool>;
-using Indices = std::vector<std::uint32_t>;
-using InputRows = std::tuple<std::vector<PullRow>, Indices, Indices, std::vector<double>>;
-
-Diverged told(const std::optional<Divergence>& divergence) {
-  if (!divergence) return std::nullopt;
-  return std::make_tuple(divergence->step, divergence->particle, divergence->ball,
-                         body_text(*divergence) + " " + fault_text(*divergence));
-}
-
-InputRows rows_of(const Inputs& inputs) {
-  InputRows rows = {{}, inputs.pinned, inputs.released, inputs.channels};
-  for (const Pull& p : inputs.pulls)
-    std::get<0>(rows).emplace_back(p.particle, std::make_tuple(p.anchor.x, p.anchor.y, p.anchor.z),
-                                   p.stiffness, p.damping, p.ball);
-  return rows;
-}
-
-Inputs inputs_of_rows(const InputRows& rows) {
-  Inputs inputs = {{}, std::get<1>(rows), std::get<2>(rows), std::get<3>(rows)};
-  for (const auto& [particle, anchor, stiffness, damping, ball] : std::get<0>(rows)) {
-    const auto& [x, y, z] = anchor;
-    inputs.pulls.push_back({particle, {x, y, z}, stiffness, damping, ball});
-  }
-  return inputs;
-}
-
-void check_field(std::size_t field) {
-  if (field >= state_fields.size()) throw nb::index_error("no such field");
-}
-
-/// Without a conversion, which would fill a copy.
-template <class T>
-using Place = nb::ndarray<T, nb::shape<-1, 3>, nb::device::cpu>;
-
-template <class T>
-std::uint64_t read_into(Simulation& simulation, std::size_t field, const Place<T>& array) {
-  check_field(field);
-  StateView view;
-  view[field] = Strided<T>{array.data(), array.shape(0), static_cast<std::ptrdiff_t>(array.stride(0)),
-                           static_cast<std::ptrdiff_t>(array.stride(1))};
-  return simulation.alone([&] { return take(simulation.backend().solver->read_into(view)); });
-}
 
 /// Keeps a simulation, and its state as it is, for as long as an array shows it.
 struct Hold {
@@ -89,72 +37,6 @@ nb::object view(const nb::object& self, std::size_t field) {
         }
       },
       *vectors);
-}
-
-Array<double> masses(Simulation& simulation) {
-  std::vector<double> all = particle_masses(*simulation.model());
-  const std::size_t count = all.size();
-  return as_array(std::move(all), {count});
-}
-
-Array<std::uint32_t> pinned(Simulation& simulation) {
-  std::vector<std::uint32_t> all = pinned_indices(*simulation.model());
-  const std::size_t count = all.size();
-  return as_array(std::move(all), {count});
-}
-
-using SpringArrays = std::tuple<Array<std::uint32_t>, Array<double>, Array<double>, Array<double>,
-                                Array<std::uint8_t>, Array<std::uint8_t>>;
-
-/// Ends, stiffness, damping, rest length, type, whether it is a cord: an array of each.
-SpringArrays springs(Simulation& simulation) {
-  const std::vector<SpringFacts> all = spring_facts(*simulation.model());
-  std::vector<std::uint32_t> ends;
-  std::vector<double> stiffness, damping, rest;
-  std::vector<std::uint8_t> type, cord;
-  for (const SpringFacts& s : all) {
-    ends.insert(ends.end(), {s.a, s.b});
-    stiffness.push_back(s.stiffness);
-    damping.push_back(s.damping);
-    rest.push_back(s.rest_length);
-    type.push_back(static_cast<std::uint8_t>(s.type));
-    cord.push_back(s.cord ? 1 : 0);
-  }
-  const std::size_t count = all.size();
-  return SpringArrays(as_array(std::move(ends), {count, 2}), as_array(std::move(stiffness), {count}),
-                      as_array(std::move(damping), {count}), as_array(std::move(rest), {count}),
-                      as_array(std::move(type), {count}), as_array(std::move(cord), {count}));
-}
-
-Array<std::uint32_t> surface(Simulation& simulation, std::size_t body) {
-  const SharedModel model = simulation.model();
-  if (body >= particle_ranges(*model).size()) throw nb::index_error("no such body");
-  const std::vector<Quad> quads = surface_quads(*model, body);
-  std::vector<std::uint32_t> corners;
-  for (const Quad& quad : quads) corners.insert(corners.end(), quad.begin(), quad.end());
-  return as_array(std::move(corners), {quads.size(), 4});
-}
-
-std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges(Simulation& simulation) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
-  for (const ParticleRange& range : particle_ranges(*simulation.model()))
-    all.emplace_back(range.first, range.count);
-  return all;
-}
-
-std::vector<std::tuple<double, double, std::uint64_t>> balls(Simulation& simulation) {
-  std::vector<std::tuple<double, double, std::uint64_t>> all;
-  for (const BallFacts& ball : ball_facts(*simulation.model()))
-    all.emplace_back(ball.radius, ball.mass, ball.launch_step);
-  return all;
-}
-
-std::tuple<double, double, double, std::tuple<double, double, double>, double, double> measures(
-    Simulation& simulation) {
-  const Measures m = simulation.measures();
-  return {m.kinetic,       m.elastic,
-          m.gravitational, std::make_tuple(m.momentum.x, m.momentum.y, m.momentum.z),
-          m.max_speed,     m.min_height};
 }
 
 Array<std::uint8_t> picture(Simulation& simulation, const std::vector<std::string>& view, int width,
@@ -196,52 +78,30 @@ void bind_simulation(nb::module_& module) {
   nb::class_<InputLog>(module, "InputLog", "The inputs of a run by step.")
       .def_prop_ro(
           "hash", [](const InputLog& log) { return log.hash_text(); }, "16 hexadecimal digits.");
-  nb::class_<Simulation>(module, "Simulation", "A scene, a solver and the inputs so far.")
+  nb::class_<Simulation> bound(module, "Simulation", "A scene, a solver and the inputs so far.");
+  bind_reading(bound);
+  bound
       .def(nb::init<Scene, const std::string&, std::optional<bool>, unsigned>(), nb::arg("scene"),
            nb::arg("backend"), nb::arg("doubles").none(), nb::arg("threads"))
-      .def_prop_ro("scene", &Simulation::scene, "As it is simulated.")
-      .def_prop_ro("step", &Simulation::step, "Steps since the start.")
       .def_prop_ro(
           "variant", [](const Simulation& s) { return s.backend().variant(); }, "Backend and options.")
       .def_prop_ro(
           "device", [](const Simulation& s) { return s.backend().device; }, "What computes.")
       .def_prop_ro(
           "reason", [](const Simulation& s) { return s.backend().reason; }, "Why auto took it.")
-      .def_prop_ro(
-          "doubles",
-          [](const Simulation& s) { return s.backend().solver->precision() == Precision::double_; },
-          "Whether it computes in double precision.")
-      .def("state", &Simulation::state, "A copy.")
       .def(
           "load", [](Simulation& s, const State& state, const InputLog* log) { s.load(state, log); },
           nb::arg("state"), nb::arg("log").none(), "Takes over a state, with its inputs.")
-      .def("measures", &measures, "Kinetic, elastic, gravitational, momentum, largest speed, lowest height.")
       .def(
           "advance", [](Simulation& s, std::uint64_t steps) { return told(s.advance(steps)); },
           nb::arg("steps"), "Steps; what diverged.")
       .def("compare", &Simulation::compare, nb::arg("other"), nb::arg("steps"),
            "The first step that differs.")
-      .def("read_into", &read_into<float>, nb::arg("field"), nb::arg("out").noconvert(),
-           "Reads a field; its step.")
-      .def("read_into", &read_into<double>, nb::arg("field"), nb::arg("out").noconvert(),
-           "Reads a field; its step.")
       .def("view", &view, nb::arg("field"), "A field in the solver's memory; None on a device.")
-      .def("masses", &masses, "[kg].")
-      .def("pinned", &pinned, "Indices that the scene pins.")
-      .def("springs", &springs, "Arrays: ends, stiffness, damping, rest length, type, cord.")
-      .def("surface", &surface, nb::arg("body"), "Four corners each.")
-      .def("ranges", &ranges, "First particle and count of each body.")
-      .def("balls", &balls, "Radius, mass and launch step of each ball.")
       .def("picture", &picture, nb::arg("view"), nb::arg("width"), nb::arg("height"), nb::arg("text"),
            "(height, width, 3).")
       .def("film", &film, nb::arg("path"), nb::arg("steps"), nb::arg("fps").none(), nb::arg("speed"),
            nb::arg("width"), nb::arg("height"), nb::arg("text"), nb::arg("overwrite"), "Steps and films.")
-      .def("update", &Simulation::update, nb::arg("overrides"), "Other constants.")
-      .def(
-          "inputs", [](Simulation& s) { return rows_of(s.inputs()); }, "Pulls, pins, releases, channels.")
-      .def(
-          "set_inputs", [](Simulation& s, const InputRows& rows) { s.set_inputs(inputs_of_rows(rows)); },
-          nb::arg("rows"), "From this step on.")
       .def("log", &Simulation::log, "Of all steps.")
       .def("set_log", &Simulation::set_log, nb::arg("log"), "Replaces it.")
       .def("log_text", &Simulation::log_text, "As TOML.")

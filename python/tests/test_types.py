@@ -29,6 +29,9 @@ def test_the_package_and_a_program_that_uses_it_are_typed(tmp_path: pathlib.Path
         "import aspic\n"
         'sim = aspic.Simulation(aspic.load("cube-plane"), "cpu", precision="single")\n'
         "reveal_type(sim.positions)\nreveal_type(sim.step(3))\nreveal_type(sim.energy.total)\n"
+        'batch = aspic.Batch([sim.scene, "cube-plane"], threads=1)\n'
+        "reveal_type(batch[0].positions)\nreveal_type(batch.step(3) + 1)\nreveal_type(batch.run(0.1).time)\n"
+        "batch.reset(batch.diverged > 0)\n"
         'sim.step("3")  # type: ignore[arg-type]\n'
         "sim.stepp()  # type: ignore[attr-defined]\n"
     )
@@ -55,7 +58,7 @@ def test_the_stub_has_what_the_extension_module_has() -> None:
     module = sys.modules["aspic._aspic"]
     assert names(stub.body) == {name for name in dir(module) if not name.startswith("_")}
     classes = [part for part in stub.body if isinstance(part, ast.ClassDef)]
-    assert {part.name for part in classes} == {"InputLog", "Scene", "Simulation", "State"}
+    assert {part.name for part in classes} == {"Batch", "InputLog", "Instance", "Scene", "Simulation", "State"}
     for part in classes:
         members = {name for name in vars(getattr(module, part.name)) if not name.startswith("_")}
         assert names(part.body) == members, part.name

@@ -1,0 +1,311 @@
+"""Batches: many scenes in motion."""
+
+from __future__ import annotations
+
+import operator
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, SupportsIndex, Union
+
+from . import _aspic
+from ._errors import DivergedError, UsageError, diverged
+from ._inputs import Steerable
+from ._scene import Scene, assignments, load
+from ._state import State, field_index
+from ._trajectory import BatchTrajectory, Energy
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["Batch", "Instance"]
+
+Path = Union[str, "os.PathLike[str]"]
+
+# What may be recorded of all particles of an instance.
+_OF_ALL = ("centre-of-mass", "momentum", "energy")
+
+
+class Instance(Steerable):
+    """An instance of a batch: ``batch[i]``, read and steered as a Simulation is. The batch alone steps it.
+
+    It follows the batch; its arrays are copies, (n, 3), float32.
+    """
+
+    _core: _aspic.Instance
+
+    def __init__(self, core: _aspic.Instance, number: int):
+        self._core = core
+        self._number = number
+
+    @property
+    def divergence(self) -> DivergedError | None:
+        """Which step failed and how, as the exception that a Simulation raises; None: it has not diverged."""
+        found = self._core.divergence()
+        return diverged(found) if found else None
+
+    def update(self, values: Mapping[str, Any]) -> None:
+        """Changes constants of this instance alone, and forgets a divergence.
+
+        ``values``, and what it raises: as ``Simulation.update()``. An instance with another time step than those it is
+        computed with becomes slower.
+        """
+        self._core.update(assignments(values))
+
+    def save(self) -> State:
+        """A copy of the state with the present inputs, for ``load()``, also that of a Simulation."""
+        return State(self._core.state(), self._core.log())
+
+    def load(self, state: State) -> None:
+        """Goes to a state of the same model, with the inputs that it has for its step. Forgets a divergence.
+
+        Raises UsageError.
+        """
+        self._core.load(state._core, state._log)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self.bodies, *(ball.name for ball in self.balls)]
+
+    def __repr__(self) -> str:
+        return f"<aspic.Instance {self._number} of {self._core.scene.name!r}: step {self.steps}, {self.time:g} s>"
+
+
+class Batch:
+    """Many scenes that are stepped together on the CPU, equal ones and others in any mixture, without contact.
+
+    Instance i ends with the bits that ``Simulation(scenes[i])`` has, whatever the others are and however many threads
+    compute. One that diverges stays at its last good state, while the others go on. Scenes with the same bodies and
+    time step, an explicit method, at most 2,048 particles and no balls are the fastest, and few long calls are faster
+    than many short ones. Every number is in SI units; arrays are copies with the instance first. Steps run without the
+    GIL; several threads may use one batch: they take turns.
+    """
+
+    def __init__(
+        self, scenes: Scene | Path | Iterable[Scene | Path], *, count: int | None = None, threads: int = 0
+    ) -> None:
+        """Makes n instances at their scenes' starts; later changes of the scenes do not matter to them.
+
+        ``scenes``: several, each one or what ``aspic.load()`` takes, or a single one, of which ``count`` instances are
+        made; the same object several times is made once. ``threads``: 1 … 1024, 0: as many as there are processors, or
+        the environment variable ASPIC_THREADS. Raises UsageError for no scenes and for other numbers; SceneError where
+        a model is larger than memory, and what ``load()`` raises.
+        """
+        if isinstance(scenes, (Scene, str, os.PathLike)):
+            copies = 1 if count is None else operator.index(count)
+            if copies < 1:
+                raise UsageError(f"a batch has at least one instance, not {copies}")
+            wanted: list[Scene | Path] = [scenes] * copies
+        elif count is not None:
+            raise UsageError("count belongs to a single scene: a list has as many instances as scenes")
+        else:
+            wanted = list(scenes)
+        if not 0 <= threads <= 1024:
+            raise UsageError(f"a number of threads is 1 to 1024, or 0 for that of processors, not {threads}")
+        numbers: dict[Any, int] = {}
+        cores: list[_aspic.Scene] = []
+        which: list[int] = []
+        for scene in wanted:
+            key = id(scene) if isinstance(scene, Scene) else os.fspath(scene)
+            if key not in numbers:
+                numbers[key] = len(cores)
+                cores.append((scene if isinstance(scene, Scene) else load(scene))._core)
+            which.append(numbers[key])
+        self._core = _aspic.Batch(cores, which, threads)
+        self._size = len(which)
+
+    # Instances.
+
+    def __len__(self) -> int:
+        """Instances."""
+        return self._size
+
+    def __getitem__(self, instance: SupportsIndex) -> Instance:
+        """An instance by its number from 0, from the end if negative. Raises IndexError."""
+        number = self._number(instance)
+        return Instance(self._core.instance(number), number)
+
+    def __iter__(self) -> Iterator[Instance]:
+        return (self[i] for i in range(self._size))
+
+    def set_scene(self, instance: SupportsIndex, scene: Scene | Path) -> None:
+        """Gives an instance the constants of another scene: stiffnesses, masses, gravity, contact, the time step.
+
+        Its state and inputs stay, and a divergence is forgotten. Raises IndexError; UsageError where particles,
+        springs, kinds of terrain or the integrator would become others, which takes a new Batch. Then nothing changes.
+        """
+        core = self._core.instance(self._number(instance))
+        core.set_scene((scene if isinstance(scene, Scene) else load(scene))._core)
+
+    # Steps.
+
+    def step(self, steps: int = 1) -> int:
+        """Makes so many steps of every instance, and returns how many are diverged: ``diverged`` says which.
+
+        Those stay at their last good states until ``reset()``, ``set_scene()`` or their ``load()`` and ``update()``.
+        Ctrl-C (KeyboardInterrupt) and ``stop()`` (InterruptedRun) leave every instance at the end of a step, but not
+        all of the same, since instances are stepped in groups: ``steps`` says which, and some may not have begun.
+        """
+        if steps < 0:
+            raise UsageError(f"a number of steps is 0 or more, not {steps}")
+        return self._core.advance(steps)
+
+    def run(
+        self, duration: float, *, every: float | None = None, record: str | Sequence[str] = ("centre-of-mass",)
+    ) -> BatchTrajectory:
+        """Steps every instance, and records on the way.
+
+        ``duration``: from where each is [s], ≥ 0; ``every``: the interval of samples [s], the first at once, each at
+        the step nearest to its time, the last at the end; None: the start and the end alone. ``record``:
+        ``"centre-of-mass"`` (n, t, 3) [m], ``"momentum"`` (n, t, 3) [N·s], ``"energy"`` of (n, t) [J], and of one body
+        ``"cube[0].positions"`` (n, t, p, 3) [m], or ``"positions"`` where every instance has a single body. Raises
+        UsageError for others, and for a body that has not the same number and as many particles in all instances;
+        SceneError where the record is larger than memory. A divergence raises nothing: ``diverged`` of the result says
+        which. Ctrl-C and ``stop()`` act as in ``step()``, and the record is lost.
+        """
+        names = [record] if isinstance(record, str) else list(record)
+        if every is not None and not every > 0:
+            raise UsageError(f"an interval of samples is more than 0 s, not {every}")
+        body, kinds = self._wanted(names)
+        interval = every if every is not None else duration if duration > 0 else 1.0
+        time, centres, momenta, energies, positions, diverged, hashes = self._core.run(
+            duration, interval, "centre-of-mass" in kinds, "momentum" in kinds, "energy" in kinds, body
+        )
+        of: dict[str, Any] = {"centre-of-mass": centres, "momentum": momenta, "positions": positions}
+        if energies is not None:
+            of["energy"] = Energy(*(energies[..., part].copy() for part in range(3)))
+        series = {name: of[kind] for name, kind in zip(names, kinds)}
+        return BatchTrajectory(time, diverged.astype("int64"), hashes, series)
+
+    def stop(self) -> None:
+        """Ends ``step()`` and ``run()`` that another thread is in: they raise InterruptedRun. Otherwise nothing."""
+        self._core.stop()
+
+    def reset(self, mask: ArrayLike | None = None) -> None:
+        """Back to the start: step 0 of their scenes. Inputs and constants stay.
+
+        ``mask``: (n,) of bool, which instances; None: all. Raises UsageError for another shape or type.
+        """
+        import numpy as np
+
+        if mask is None:
+            self._core.reset(None)
+            return
+        given = np.asarray(mask)
+        if given.dtype != np.bool_ or given.shape != (self._size,):
+            raise UsageError(
+                f"the mask is an array of {self._size} bool, one of each instance, not of {given.dtype} with the shape "
+                f"{given.shape}"
+            )
+        self._core.reset(np.ascontiguousarray(given).view(np.uint8))
+
+    # Where they are.
+
+    @property
+    def steps(self) -> NDArray[np.int64]:
+        """Steps since each one's start, (n,)."""
+        return self._core.steps().astype("int64")
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Steps × h of each, (n,) [s]."""
+        return self._core.times()
+
+    @property
+    def diverged(self) -> NDArray[np.int64]:
+        """The step that failed, (n,); 0: not diverged. ``batch.reset(batch.diverged > 0)`` begins with those again."""
+        return self._core.diverged().astype("int64")
+
+    @property
+    def hash(self) -> list[str]:
+        """Of each state: what ``Simulation.hash`` of its scene alone is."""
+        return self._core.hashes()
+
+    def read(self, field: str) -> NDArray[np.float32]:
+        """A field of all states, (n, p, 3): those that ``Simulation.read()`` names.
+
+        Raises UsageError for an unknown field, and where instances have different numbers of particles or balls.
+        """
+        return self._core.gather(field_index(field))
+
+    @property
+    def positions(self) -> NDArray[np.float32]:
+        """Of the particles, (n, p, 3) [m]. Raises UsageError where their number differs: ``batch[i].positions``."""
+        return self.read("positions")
+
+    @property
+    def velocities(self) -> NDArray[np.float32]:
+        """Of the particles, (n, p, 3) [m/s]. Raises UsageError where their number differs."""
+        return self.read("velocities")
+
+    @property
+    def centre_of_mass(self) -> NDArray[np.float64]:
+        """Of all particles of each instance, without balls, (n, 3) [m]."""
+        return self._now("centre-of-mass")[:, 0]  # type: ignore[no-any-return]
+
+    @property
+    def momentum(self) -> NDArray[np.float64]:
+        """Σ m v of what is not pinned, (n, 3) [N·s]."""
+        return self._now("momentum")[:, 0]  # type: ignore[no-any-return]
+
+    @property
+    def energy(self) -> Energy:
+        """Of each instance, arrays (n,) [J]; ``energy.total`` is the sum."""
+        return Energy(*(part[:, 0] for part in self._now("energy")))
+
+    # How it computes.
+
+    @property
+    def description(self) -> str:
+        """How it computes, in a line: how instances are put together, threads, instruction set."""
+        return self._core.description()
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of memory, those of the models apart."""
+        return self._core.bytes()
+
+    # Parts.
+
+    def __repr__(self) -> str:
+        return f"<aspic.Batch of {self._size} instances>"
+
+    def _number(self, instance: SupportsIndex) -> int:
+        number = operator.index(instance)
+        if not -self._size <= number < self._size:
+            raise IndexError(f"instance {number} does not exist: the batch has {self._size}, numbered from 0")
+        return number % self._size
+
+    def _now(self, name: str) -> Any:
+        return self.run(0.0, record=[name])[name]
+
+    def _wanted(self, names: list[str]) -> tuple[int | None, list[str]]:
+        """The number of the body whose positions are recorded, and what each name asks for."""
+        found: set[int] = set()
+        kinds = []
+        for name in names:
+            body, _, what = name.rpartition(".")
+            kind = what.replace("_", "-")
+            if kind == "positions":
+                found.add(self._body(body))
+            elif body or kind not in _OF_ALL:
+                raise UsageError(
+                    f"{name!r} cannot be recorded of a batch; {', '.join(_OF_ALL)} can, and positions of one body"
+                )
+            kinds.append(kind)
+        if len(found) > 1:
+            raise UsageError("a batch records positions of one body")
+        return (found.pop() if found else None), kinds
+
+    def _body(self, name: str) -> int:
+        """The number of a body in every instance; no name: the only one."""
+        wanted = name if name.endswith("]") else f"{name}[0]"
+        numbers = set()
+        for i, bodies in enumerate(self._core.bodies()):
+            if not name and len(bodies) != 1:
+                raise UsageError(f"instance {i} has {len(bodies)} bodies: record one's, as in 'cube[0].positions'")
+            if name and wanted not in bodies:
+                raise UsageError(f"instance {i} has no body {name!r}; it has {', '.join(bodies) or 'none'}")
+            numbers.add(bodies.index(wanted) if name else 0)
+        if len(numbers) > 1:
+            raise UsageError(f"{name!r} is not the body of the same number in all instances")
+        return numbers.pop()

@@ -1,0 +1,105 @@
+#pragma once
+// What a simulation and an instance of a batch have in common for Python: both are read and steered alike.
+#include <aspic/analysis.h>
+#include <aspic/inputs.h>
+#include <aspic/solver.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "convert.h"
+
+namespace aspic::python {
+
+/// Step, particle or ball, whether it is a ball, and what happened, in words.
+using Diverged = std::optional<std::tuple<std::uint64_t, std::uint32_t, bool, std::string>>;
+/// Particle or ball, anchor, stiffness, damping, whether it is a ball.
+using PullRow = std::tuple<std::uint32_t, std::tuple<double, double, double>, double, double, bool>;
+using Indices = std::vector<std::uint32_t>;
+/// Pulls, pinned, released, channels.
+using InputRows = std::tuple<std::vector<PullRow>, Indices, Indices, std::vector<double>>;
+/// Kinetic, elastic, gravitational, momentum, largest speed, lowest height.
+using MeasureRow = std::tuple<double, double, double, std::tuple<double, double, double>, double, double>;
+/// Ends, stiffness, damping, rest length, type, whether it is a cord: an array of each.
+using SpringArrays = std::tuple<Array<std::uint32_t>, Array<double>, Array<double>, Array<double>,
+                                Array<std::uint8_t>, Array<std::uint8_t>>;
+
+Diverged told(const std::optional<Divergence>& divergence);
+InputRows rows_of(const Inputs& inputs);
+Inputs inputs_of_rows(const InputRows& rows);
+MeasureRow row_of(const Measures& measures);
+Array<double> masses(const Model& model);
+Array<std::uint32_t> pinned(const Model& model);
+SpringArrays springs(const Model& model);
+/// Raises IndexError for a body that there is not.
+Array<std::uint32_t> surface(const Model& model, std::size_t body);
+std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges(const Model& model);
+std::vector<std::tuple<double, double, std::uint64_t>> balls(const Model& model);
+
+/// Raises IndexError.
+void check_field(std::size_t field);
+
+/// Without a conversion, which would fill a copy.
+template <class T>
+using Place = nb::ndarray<T, nb::shape<-1, 3>, nb::device::cpu>;
+
+template <class T>
+StateView view_at(std::size_t field, const Place<T>& array) {
+  check_field(field);
+  StateView view;
+  view[field] = Strided<T>{array.data(), array.shape(0), static_cast<std::ptrdiff_t>(array.stride(0)),
+                           static_cast<std::ptrdiff_t>(array.stride(1))};
+  return view;
+}
+
+/// Binds what class T has by these names.
+template <class T>
+void bind_reading(nb::class_<T>& bound) {
+  bound.def_prop_ro("scene", &T::scene, "As it is simulated.")
+      .def_prop_ro("step", &T::step, "Steps since the start.")
+      .def_prop_ro("doubles", &T::doubles, "Whether it computes in double precision.")
+      .def("state", &T::state, "A copy.")
+      .def(
+          "measures", [](T& t) { return row_of(t.measures()); },
+          "Kinetic, elastic, gravitational, momentum, largest speed, lowest height.")
+      .def(
+          "read_into",
+          [](T& t, std::size_t field, const Place<float>& out) { return t.read_into(view_at(field, out)); },
+          nb::arg("field"), nb::arg("out").noconvert(), "Reads a field; its step.")
+      .def(
+          "read_into",
+          [](T& t, std::size_t field, const Place<double>& out) { return t.read_into(view_at(field, out)); },
+          nb::arg("field"), nb::arg("out").noconvert(), "Reads a field; its step.")
+      .def(
+          "masses", [](T& t) { return masses(*t.model()); }, "[kg].")
+      .def(
+          "pinned", [](T& t) { return pinned(*t.model()); }, "Indices that the scene pins.")
+      .def(
+          "springs", [](T& t) { return springs(*t.model()); },
+          "Arrays: ends, stiffness, damping, rest length, type, cord.")
+      .def(
+          "surface", [](T& t, std::size_t body) { return surface(*t.model(), body); }, nb::arg("body"),
+          "Four corners each.")
+      .def(
+          "ranges", [](T& t) { return ranges(*t.model()); }, "First particle and count of each body.")
+      .def(
+          "balls", [](T& t) { return balls(*t.model()); }, "Radius, mass and launch step of each ball.")
+      .def("update", &T::update, nb::arg("overrides"), "Other constants.")
+      .def(
+          "inputs", [](T& t) { return rows_of(t.inputs()); }, "Pulls, pins, releases, channels.")
+      .def(
+          "set_inputs", [](T& t, const InputRows& rows) { t.set_inputs(inputs_of_rows(rows)); },
+          nb::arg("rows"), "From this step on.");
+}
+
+}  // namespace aspic::python
