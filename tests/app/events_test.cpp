@@ -205,7 +205,8 @@ class Events : public Stage {
 };
 
 TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
-  const app::KeptState kept = one_picture_a_step(find_film_format("png"));
+  app::KeptState kept = one_picture_a_step(find_film_format("png"));
+  kept.layout.text_size = 0.75;  // the terrain's shapes are in sight below the scenes
   const auto boxes = widgets(kept);
   keep(kept);
   start();
