@@ -33,8 +33,8 @@ bool Renderer::Parts::knows(const DeviceState& state) const {
   return state.particles == &uploaded && uploaded_particles.size() == model->particle_count();
 }
 
-void Renderer::Parts::Surroundings::reset(const Model& model) {
-  rods_ = extent_of(rod_mesh(model));
+void Renderer::Parts::Surroundings::reset(const Model& another) {
+  rods_ = extent_of(rod_mesh(another));
   backdrop_.forget();
 }
 

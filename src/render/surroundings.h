@@ -13,14 +13,14 @@ namespace aspic {
 class Renderer::Parts::Surroundings {
  public:
   /// There is another model.
-  void reset(const Model& model);
+  void reset(const Model& another);
   /// Whether the picture may begin with the backdrop, which is drawn if need be.
   bool prepare(Parts& parts, const Drawing& drawing);
   /// Puts the backdrop's samples, where the picture differs from it, or its picture into the targets.
-  void put_samples(PictureTargets& targets, const std::vector<gl::PixelBox>& boxes) const {
-    backdrop_.put_samples(targets, boxes);
+  void put_samples(PictureTargets& to, const std::vector<gl::PixelBox>& boxes) const {
+    backdrop_.put_samples(to, boxes);
   }
-  void put_picture(PictureTargets& targets) const { backdrop_.put_picture(targets); }
+  void put_picture(PictureTargets& to) const { backdrop_.put_picture(to); }
   /// Where the picture differs from its backdrop.
   std::vector<gl::PixelBox> changing(const Parts& parts, const Drawing& drawing) const;
   /// Where translucent bodies are, and as far around them as they bend sight (shaders/render/jelly.frag).
