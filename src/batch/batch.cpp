@@ -115,7 +115,7 @@ std::uint64_t Batch::bytes() const {
 
 Result<std::size_t> Batch::advance(std::uint64_t steps) {
   ASPIC_CHECK(batch::for_each_unit(*parts_->pool, parts_->units,
-                                   [&](batch::Unit& unit) { return unit.advance(steps); }));
+                                   [&](std::size_t n) { return parts_->units[n]->advance(steps); }));
   std::size_t diverged = 0;
   for (std::size_t i = 0; i < size(); ++i)
     diverged += parts_->unit(i).divergence(parts_->slot(i)).has_value() ? 1 : 0;
@@ -132,9 +132,8 @@ Result<BatchRecord> Batch::run(double duration, double interval, const BatchQuan
     if (of_unit.size() <= parts_->slot(i)) of_unit.resize(parts_->slot(i) + 1, batch::nobody);
     of_unit[parts_->slot(i)] = i;
   }
-  ASPIC_CHECK(batch::for_each_unit(*parts_->pool, parts_->units, [&](batch::Unit& unit) {
-    const auto n = std::ranges::find(parts_->units, &unit, &std::unique_ptr<batch::Unit>::get);
-    return recording.take(unit, instances[static_cast<std::size_t>(n - parts_->units.begin())], parts_->flag);
+  ASPIC_CHECK(batch::for_each_unit(*parts_->pool, parts_->units, [&](std::size_t n) {
+    return recording.take(*parts_->units[n], instances[n], parts_->flag);
   }));
   if (parts_->stopped())
     return fail(ErrorCode::interrupted,

@@ -108,7 +108,7 @@ Result<Plan> make_units(const std::vector<SharedModel>& models, unsigned threads
 }
 
 Status for_each_unit(parallel::Workers& pool, const std::vector<std::unique_ptr<Unit>>& units,
-                     const std::function<Status(Unit&)>& act) {
+                     const std::function<Status(std::size_t)>& act) {
   std::vector<Status> ends(units.size());
   std::atomic<std::size_t> next = 0;
   for (const auto& unit : units)
@@ -116,7 +116,7 @@ Status for_each_unit(parallel::Workers& pool, const std::vector<std::unique_ptr<
   // A piece is what a thread does from beginning to end; who comes later finds nothing left.
   pool.run(pool.threads(), [&](std::size_t) {
     for (std::size_t n = next++; n < units.size(); n = next++) {
-      ends[n] = act(*units[n]);
+      ends[n] = act(n);
       if (parallel::Workers* const helpers = units[n]->helped()) helpers->release();
     }
     for (const auto& unit : units)

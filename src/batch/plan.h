@@ -26,9 +26,9 @@ struct Plan {
 /// (scene_rejected): no memory.
 Result<Plan> make_units(const std::vector<SharedModel>& models, unsigned threads);
 
-/// Calls act for every unit, on all threads, in their order; who finds none left helps those that are at
-/// work. Returns the first error, in the order of units.
+/// Calls act with the number of every unit, on all threads, in their order; who finds none left helps those
+/// that are at work. Returns the first error, in the order of units.
 Status for_each_unit(parallel::Workers& pool, const std::vector<std::unique_ptr<Unit>>& units,
-                     const std::function<Status(Unit&)>& act);
+                     const std::function<Status(std::size_t)>& act);
 
 }  // namespace aspic::batch

@@ -80,7 +80,8 @@ struct IntegratorRow {
   StepMatrix (*step_matrix)(long double h, long double kappa, long double gamma);
   MethodData method;
   MethodTraits traits;
-  std::string_view source;  ///< author and year
+  std::string_view source;   ///< author and year
+  std::string_view formula;  ///< of a step, for people; x', v' are its end
 
   constexpr MethodKind kind() const { return static_cast<MethodKind>(method.index()); }
   /// Null: the method is of another kind.
@@ -113,33 +114,40 @@ double velocity_verlet_limit(double kappa, double gamma);
 inline constexpr std::array integrator_table = {
     IntegratorRow{Integrator::explicit_euler, "explicit-euler", "explicit Euler", 1,
                   integrator_rows::explicit_euler, Staged{integrator_rows::one_stage}, MethodTraits{},
-                  "Euler, 1768"},
+                  "Euler, 1768", "x' = x + h·v, v' = v + h·a(x, v)"},
     IntegratorRow{
         Integrator::symplectic_euler, "symplectic-euler", "symplectic Euler", 1,
         integrator_rows::symplectic_euler,
         Staged{integrator_rows::one_stage, 1.0, Drift::new_velocity, integrator_rows::symplectic_euler_limit},
-        MethodTraits{.keeps_angular_momentum = true}, "Hairer, Lubich, Wanner, 2006"},
-    IntegratorRow{Integrator::midpoint, "midpoint", "midpoint", 2, integrator_rows::midpoint_rule,
-                  Staged{integrator_rows::midpoint}, MethodTraits{}, "Runge, 1895"},
+        MethodTraits{.keeps_angular_momentum = true}, "Hairer, Lubich, Wanner, 2006",
+        "v' = v + h·a(x, v), x' = x + h·v'"},
+    IntegratorRow{
+        Integrator::midpoint, "midpoint", "midpoint", 2, integrator_rows::midpoint_rule,
+        Staged{integrator_rows::midpoint}, MethodTraits{}, "Runge, 1895",
+        "x' = x + h·vₘ, v' = v + h·a(xₘ, vₘ), where xₘ, vₘ are half a step of explicit Euler ahead"},
     IntegratorRow{Integrator::runge_kutta_4, "runge-kutta-4", "Runge–Kutta 4", 4,
                   integrator_rows::runge_kutta_4, Staged{integrator_rows::kutta, 6.0}, MethodTraits{},
-                  "Kutta, 1901"},
+                  "Kutta, 1901",
+                  "x' = x + h/6·(k₁ + 2k₂ + 2k₃ + k₄), v likewise; k₁ at 0, k₂ and k₃ at h/2, k₄ at h"},
     IntegratorRow{
         Integrator::implicit_euler, "implicit-euler", "implicit Euler", 1, integrator_rows::implicit_euler,
         Newton{},
         MethodTraits{
             .stable_at_any_step = true, .reports_solves = true, .long_steps = true, .nominal_step = 1.0 / 60},
-        "Baraff and Witkin, 1998"},
+        "Baraff and Witkin, 1998", "x' = x + h·v', v' = v + h·a(x', v'), solved by Newton's method"},
     IntegratorRow{Integrator::implicit_euler_one_pass, "implicit-euler-one-pass", "implicit Euler, one pass",
                   1, integrator_rows::implicit_euler_one_pass, Staged{integrator_rows::one_pass},
-                  MethodTraits{}, "the 2021 assignment"},
+                  MethodTraits{}, "the 2021 assignment",
+                  "x' = x + h·vₚ, v' = v + h·a(xₚ, vₚ), where xₚ, vₚ are a step of explicit Euler ahead"},
     IntegratorRow{Integrator::heun_3, "heun-3", "Heun 3", 3, integrator_rows::heun_3,
-                  Staged{integrator_rows::heun, 4.0}, MethodTraits{}, "Heun, 1900"},
+                  Staged{integrator_rows::heun, 4.0}, MethodTraits{}, "Heun, 1900",
+                  "x' = x + h/4·(k₁ + 3k₃), v likewise; k₂ at h/3, k₃ at 2h/3"},
     IntegratorRow{
         Integrator::velocity_verlet, "velocity-verlet", "velocity Verlet", 2,
         integrator_rows::velocity_verlet,
         Staged{integrator_rows::verlet, 2.0, Drift::mean_velocity, integrator_rows::velocity_verlet_limit},
-        MethodTraits{.keeps_angular_momentum = true}, "Groot and Warren, 1997"},
+        MethodTraits{.keeps_angular_momentum = true}, "Groot and Warren, 1997",
+        "x' = x + h·v + h²/2·a(x, v), v' = v + h/2·(a(x, v) + a(x', v + h·a(x, v)))"},
 };
 
 /// The row of an integrator, which must be one of the enumeration.

@@ -45,9 +45,10 @@ Status Stepper::prepare() {
 }
 
 /// A model may have come to pin other particles, or to have others; what does not fit it is left out. Where a
-/// hand pinned or freed a particle, which the setup's model has, a log has no say.
-Inputs Stepper::composed(const Setup& setup, const Model& model, const InputLog& log, std::uint64_t step,
-                         Inputs followed, const std::optional<Pull>& hand) {
+/// hand pinned or freed a particle, which the model shows already, a log has no say.
+Inputs Stepper::composed(const std::map<std::uint32_t, bool>& by_hand, const Model& model,
+                         const InputLog& log, std::uint64_t step, Inputs followed,
+                         const std::optional<Pull>& hand) {
   Inputs all = log.at(step);
   const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   add(all.pulls, followed.pulls);
@@ -63,7 +64,7 @@ Inputs Stepper::composed(const Setup& setup, const Model& model, const InputLog&
     std::ranges::sort(*particles);
     particles->erase(std::unique(particles->begin(), particles->end()), particles->end());
     std::erase_if(*particles,
-                  [&](std::uint32_t i) { return i >= model.particle_count() || setup.pinned.contains(i); });
+                  [&](std::uint32_t i) { return i >= model.particle_count() || by_hand.contains(i); });
   }
   std::erase_if(all.released, [&](std::uint32_t i) {
     return model.inverse_mass[i] != 0.0 || std::ranges::binary_search(all.pinned, i);
@@ -195,11 +196,12 @@ void Stepper::start_job(std::uint64_t to, double budget, const std::optional<Inp
   // Where results wait to be taken up the solvers are further than the present.
   if (jobs_.idle()) job_step_ = present_.step();
   job_to_ = to;
-  const auto advance = [=, this, log = log_, followed = followed_, hand = hand_,
-                        setup = present_.setup()](const std::atomic<bool>& cancelled) -> Result<JobResult> {
+  const auto advance =
+      [=, this, log = log_, followed = followed_, hand = hand_,
+       by_hand = present_.setup().pinned](const std::atomic<bool>& cancelled) -> Result<JobResult> {
     Engines& engines = present_.engines();
     const Inputs inputs =
-        repeated ? *repeated : composed(setup, engines.model(), *log, job_step_, followed, hand);
+        repeated ? *repeated : composed(by_hand, engines.model(), *log, job_step_, followed, hand);
     ASPIC_CHECK(engines.use_context() ? Status() : engines.set_inputs(inputs));
     const std::uint64_t stop = repeated ? to : std::min(to, log->next_change(job_step_).value_or(to));
     const JobLimits limits = {job_step_, std::max(stop, job_step_), budget, repeated.has_value()};

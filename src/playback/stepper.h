@@ -1,6 +1,7 @@
 #pragma once
 // Moves the solvers of a run forward.
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -49,7 +50,7 @@ class Stepper {
   const InputLog& log() const { return *log_; }
   /// What holds in the step that begins here: a log's, those that are followed, the hand's.
   Inputs inputs() const {
-    return composed(present_.setup(), present_.model(), *log_, present_.step(), followed_, hand_);
+    return composed(present_.setup().pinned, present_.model(), *log_, present_.step(), followed_, hand_);
   }
   /// Single steps that were asked for and not done.
   std::uint64_t single_steps() const { return single_steps_; }
@@ -82,8 +83,9 @@ class Stepper {
  private:
   Status prepare();
   Status advance_here(std::uint64_t steps, double budget);
-  static Inputs composed(const Setup& setup, const Model& model, const InputLog& log, std::uint64_t step,
-                         Inputs followed, const std::optional<Pull>& hand);
+  static Inputs composed(const std::map<std::uint32_t, bool>& by_hand, const Model& model,
+                         const InputLog& log, std::uint64_t step, Inputs followed,
+                         const std::optional<Pull>& hand);
   std::uint64_t next_change(std::uint64_t otherwise) const;
   void start_job(std::uint64_t to, double budget, const std::optional<Inputs>& repeated);
   Status take_up(JobResult result);

@@ -109,28 +109,6 @@ Result<Figure> springs_figure(const Study& study, const Model& model) {
   return figure;
 }
 
-std::string_view formula_of(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::explicit_euler:
-      return "x' = x + h·v, v' = v + h·a(x, v)";
-    case Integrator::symplectic_euler:
-      return "v' = v + h·a(x, v), x' = x + h·v'";
-    case Integrator::midpoint:
-      return "x' = x + h·vₘ, v' = v + h·a(xₘ, vₘ), where xₘ, vₘ are half a step of explicit Euler ahead";
-    case Integrator::runge_kutta_4:
-      return "x' = x + h/6·(k₁ + 2k₂ + 2k₃ + k₄), v likewise; k₁ at 0, k₂ and k₃ at h/2, k₄ at h";
-    case Integrator::implicit_euler:
-      return "x' = x + h·v', v' = v + h·a(x', v'), solved by Newton's method";
-    case Integrator::implicit_euler_one_pass:
-      return "x' = x + h·vₚ, v' = v + h·a(xₚ, vₚ), where xₚ, vₚ are a step of explicit Euler ahead";
-    case Integrator::heun_3:
-      return "x' = x + h/4·(k₁ + 3k₃), v likewise; k₂ at h/3, k₃ at 2h/3";
-    case Integrator::velocity_verlet:
-      return "x' = x + h·v + h²/2·a(x, v), v' = v + h/2·(a(x, v) + a(x', v + h·a(x, v)))";
-  }
-  return "";
-}
-
 Figure formulas_figure(const Model& model) {
   Figure figure;
   figure.id = "formulas";
@@ -150,7 +128,7 @@ Figure formulas_figure(const Model& model) {
   if (model.ball_count() > 0)
     rows.push_back({"two balls", "v₁' = (v₁ₙ(m₁ − m₂) + 2m₂v₂ₙ)/(m₁ + m₂) + v₁ₜ, v₂' likewise, at e = 1"});
   for (const Integrator integrator : all_integrators)
-    rows.push_back({std::string(row_of(integrator).title), std::string(formula_of(integrator))});
+    rows.push_back({std::string(row_of(integrator).title), std::string(row_of(integrator).formula)});
   figure.caption =
       "Formulas. x, v, a: place, velocity and acceleration at the start of a step of h, with a dash at its "
       "end; L, r: "

@@ -45,7 +45,7 @@ TEST(IntegratorNames, AreUnique) {
 TEST_P(IntegratorTable, RowIsComplete) {
   EXPECT_EQ(row().integrator, GetParam());
   EXPECT_EQ(row().name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-"), std::string_view::npos);
-  EXPECT_FALSE(row().name.empty() || row().title.empty() || row().source.empty());
+  EXPECT_FALSE(row().name.empty() || row().title.empty() || row().source.empty() || row().formula.empty());
   EXPECT_GE(row().order, 1);
   ASSERT_NE(row().step_matrix, nullptr);
   EXPECT_GT(row().traits.nominal_step, 0.0);

@@ -26,6 +26,15 @@ def wait_for(browser):
         time.sleep(0.05)
 
 
+def end(process):
+    process.terminate()
+    try:
+        process.wait(10)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+
+
 class Chromium:
     name = "chromium"
     programs = ["chromium", "chromium-browser", "google-chrome"]
@@ -136,12 +145,7 @@ class Chromium:
         return base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"])
 
     def close(self):
-        self.process.terminate()
-        try:
-            self.process.wait(10)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
+        end(self.process)
         os.close(self.incoming)
         os.close(self.outgoing)
         shutil.rmtree(self.profile, ignore_errors=True)
@@ -263,12 +267,7 @@ class Firefox:
         return base64.b64decode(self.ask("WebDriver:TakeScreenshot", {"full": False})["value"])
 
     def close(self):
-        self.process.terminate()
-        try:
-            self.process.wait(10)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
+        end(self.process)
         self.socket.close()
         self.display.terminate()
         self.display.wait()
