@@ -35,6 +35,10 @@ endif()
 if(ASPIC_SANITIZE)
   target_compile_options(aspic_rules INTERFACE -fsanitize=${ASPIC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(aspic_rules INTERFACE -fsanitize=${ASPIC_SANITIZE})
+  if(ASPIC_SANITIZE_WITHOUT)
+    # Checks of every pointer that is followed cost Eigen's expressions a factor of nine; the address sanitizer sees what a wrong one reaches.
+    target_compile_options(aspic_rules INTERFACE -fno-sanitize=${ASPIC_SANITIZE_WITHOUT})
+  endif()
 endif()
 
 # aspic_level(TARGET LEVEL): how far a Release build optimises a target that does not compute.
@@ -50,22 +54,25 @@ function(aspic_hidden target)
                                              VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
 
-# aspic_headers(NAME LEVEL TARGETS library … HEADERS <header> …): headers of other libraries, compiled once for all targets of one level,
-# which use them by aspic_precompiled(TARGET NAME). No file relies on them: `scripts/check.sh clang` compiles each by itself, without them.
+# aspic_headers(NAME LEVEL FLAGS flag … TARGETS library … HEADERS <header> …): headers of other libraries, compiled once for all targets
+# of one level and these flags, which use them by aspic_precompiled(TARGET NAME). No file relies on them: `scripts/check.sh clang` compiles each by itself, without them.
 function(aspic_headers name level)
-  cmake_parse_arguments(arg "" "" "TARGETS;HEADERS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "FLAGS;TARGETS;HEADERS" ${ARGN})
   set(source "${PROJECT_BINARY_DIR}/${name}.cpp")
   file(CONFIGURE OUTPUT "${source}" CONTENT "// Compiled for its precompiled headers.\n")
   add_library(${name} OBJECT "${source}")
   target_link_libraries(${name} PRIVATE aspic_rules ${arg_TARGETS})
   aspic_level(${name} ${level})
+  target_compile_options(${name} PRIVATE ${arg_FLAGS})
   target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
-  set_target_properties(${name} PROPERTIES ASPIC_LEVEL ${level} UNITY_BUILD OFF)
+  set_target_properties(${name} PROPERTIES ASPIC_LEVEL ${level} ASPIC_FLAGS "${arg_FLAGS}" UNITY_BUILD OFF)
 endfunction()
 
 function(aspic_precompiled target headers)
   get_target_property(level ${headers} ASPIC_LEVEL)
+  get_target_property(flags ${headers} ASPIC_FLAGS)
   aspic_level(${target} ${level})
+  target_compile_options(${target} PRIVATE ${flags})
   if(ASPIC_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM ${headers})
   endif()

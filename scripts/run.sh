@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Release and runs aspic with the arguments given here. Without arguments: the window,
-# where there is a display and it could be built, else cube-plane simulated and filmed headless into out/.
+# where there is a display and it could be built, else cube-plane simulated and filmed headless into out/. The window is built
+# where it can be opened, or with the argument view.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 caller=$PWD
 aspic_install run
-aspic_build OFF programs
+target=aspic
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || [ "${1:-}" = view ]; then target=programs; fi
+aspic_build OFF "$target"
 aspic=$aspic_build_dir/aspic
 cd "$caller"
 
