@@ -1,12 +1,13 @@
-# Sourced by run.sh and test.sh: installs what is missing and builds Release. Everything it says goes to stderr.
-# Usage: source scripts/setup.sh; aspic_install run|all; aspic_install_packages name …; aspic_python; aspic_build ON|OFF|BENCH [ninja target …]
+# Sourced by run.sh, test.sh and package.sh: installs what is missing and builds Release. Everything it says goes to stderr.
+# Usage: source scripts/setup.sh; aspic_install run|all|package; aspic_install_packages name …; aspic_python; aspic_build ON|OFF|BENCH [ninja target …]
 
 aspic_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 aspic_build_dir=$aspic_root/build/release
 
-# aspic_packages run|all: names from packages.txt.
+# aspic_packages run|all|package: names from packages.txt.
 aspic_packages() {
-  awk -v who="$1" '!/^#/ && NF >= 2 && ($2 == "run" || who == "all") { print $1 }' "$aspic_root/scripts/packages.txt"
+  awk -v who="$1" '!/^#/ && NF >= 2 && ($2 == "run" || (who == "all" && $2 ~ /test/) || (who == "package" && $2 ~ /package/)) { print $1 }' \
+    "$aspic_root/scripts/packages.txt"
 }
 
 aspic_install() {

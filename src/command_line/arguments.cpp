@@ -4,26 +4,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
+#include <functional>
+#include <optional>
 #include <string_view>
-#include <type_traits>
 
 #include "aspic/version.h"
 #include "base/printable.h"
-#include "command_line/checked_words.h"
+#include "command_line/command_table.h"
 #include "command_line/command_words.h"
-#include "command_line/help_texts.h"
-#include "command_line/raw_options.h"
-#include "command_line/window_layouts.h"
-#include "io/film_format.h"
-#include "io/state_sink.h"
 
 namespace aspic {
 namespace {
-
-/// Repeats and particles per edge that are read at all.
-constexpr WholeRange any_steps = {0, most_steps}, intervals = {1, most_steps}, few = {1, 1024},
-                     repeats = {1, 1000000}, edges = {2, 1000000};
 
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -60,308 +51,24 @@ std::string typed_name(const CLI::Option& option, const std::vector<std::string>
   return option.get_name();
 }
 
-template <class T>
-T element_of(const T&);
-template <class T>
-T element_of(const std::optional<T>&);
-template <class T>
-T element_of(const std::vector<T>&);
-
-/// An option, or an argument where the name has no hyphens. Numbers are checked as text, whole ones against
-/// `range`, and names of files must not be empty; a list takes one element each time the option is given; a
-/// default is shown.
-template <class T>
-CLI::Option* add(CLI::App* command, const std::string& name, const char* type, T& target,
-                 const std::string& help, const WholeRange& range = any_steps) {
-  using Element = decltype(element_of(target));
-  CLI::Option* option = command->add_option(name, target, help)->type_name(type);
-  if constexpr (std::is_integral_v<Element>)
-    option->transform(CLI::Validator([range](std::string& text) { return check_whole(text, range); }, ""));
-  if constexpr (std::is_floating_point_v<Element>)
-    option->transform(CLI::Validator([](std::string& text) { return check_number(text); }, ""));
-  const std::string_view kind = type;
-  if (kind == "FILE" || kind == "DIR" || kind == "SCENE")
-    option->check(CLI::Validator([](std::string& text) { return check_name(text); }, ""));
-  if constexpr (std::is_same_v<T, std::vector<Element>>) option->allow_extra_args(false);
-  if constexpr (requires { target.empty(); }) {
-    if (!target.empty()) option->capture_default_str();
-  } else if constexpr (std::is_same_v<T, Element>) {
-    option->capture_default_str();
-  }
-  return option;
-}
-
-CLI::App* add_command(CLI::App& parent, const char* name, const char* summary, const char* footer) {
-  return parent.add_subcommand(name, summary)->footer(footer);
-}
-
-void add_json(CLI::App* c, bool& json, const char* help = "result on stdout as JSON") {
-  c->add_flag("--json", json, help);
-}
-
-void add_overrides(CLI::App* c, std::vector<std::string>& overrides) {
-  add(c, "--set", "KEY=VALUE", overrides, "set a scene value, e.g. simulation.timestep=0.002; repeatable");
-}
-
-void add_arithmetic(CLI::App* c, RawOptions& raw) {
-  add(c, "--arithmetic", "NAME", raw.arithmetic,
-      "exact: the reference's bits, or fast: other last bits (gpu and cpu)");
-  add(c, "--threads", "N", raw.threads, "threads of the cpu backend, 1 to 1024; default: as many as pay",
-      few);
-}
-
-void add_backend(CLI::App* c, RawOptions& raw) {
-  add(c, "--backend", "NAME", raw.backend, backend_words() + "; with options, gpu:gather, cpu:fast");
-  add(c, "--precision", "NAME", raw.precision, "single or double (reference only); default single");
-  add(c, "--force-path", "NAME", raw.force_path, force_path_words() + " (gpu only)");
-  add_arithmetic(c, raw);
-}
-
-void add_length(CLI::App* c, RunLength& length) {
-  auto* steps = add(c, "--steps", "N", length.steps, "simulate up to this step");
-  add(c, "--duration", "S", length.duration, "simulate up to this time, in seconds; default: the scene's")
-      ->excludes(steps);
-}
-
-void add_pictures(CLI::App* c, RunOptions& run, RawOptions& raw) {
-  PictureOutput& pictures = run.pictures;
-  add(c, "--video", "FILE", pictures.video,
-      fmt::format("write a video: {} (needs ffmpeg)", film_endings(false)));
-  add(c, "--frames", "DIR", pictures.frames, "write numbered pictures into a directory");
-  add(c, "--page", "FILE", pictures.page,
-      "write a page for browsers (.html): orbit, play, colours, energies; with --beside all runs in one");
-  add(c, "--frames-format", "NAME", raw.frames_format, film_endings(true));
-  add(c, "--fps", "F", pictures.fps, "pictures per second shown; default 60, for a GIF 50");
-  add(c, "--speed", "X", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion");
-  add(c, "--size", "WxH", raw.size, "size of the pictures in pixels");
-  add(c, "--text", "on|off", raw.text, "text on the pictures: on or off");
-  c->add_flag("--no-text", raw.no_text, "the same as --text off");
-  add(c, "--view", "KEY=VALUE", run.view,
-      "set a value of the scene's view, e.g. camera.position=[8,4,12]; repeatable");
-}
-
-void add_outputs(CLI::App* c, std::vector<StateOutput>& outputs) {
-  for (const std::string_view option : state_options()) outputs.push_back({std::string(option), "", {}});
-  for (StateOutput& output : outputs) {
-    const StateFormat& format = state_format_of(output.option, "");
-    add(c, "--" + output.option, "FILE", output.path, state_help(output.option));
-    // The series' interval was there first, and has the short name too.
-    const char* const short_name = format.over_time ? "--every," : "";
-    add(c, fmt::format("{}--{}-every", short_name, output.option), "N", output.every,
-        std::string(format.every), intervals);
-  }
-}
-
-CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
-  CLI::App* c = add_command(app, "run", "Simulate a scene headless", run_examples);
-  add(c, "scene", "SCENE", run.scene, "scene file or built-in name; not needed with --resume");
-  add_backend(c, raw);
-  add_length(c, run.length);
-  add_overrides(c, run.overrides);
-  add_outputs(c, run.outputs);
-  add_pictures(c, run, raw);
-  add(c, "--beside", "KEY=VALUE", run.differences,
-      "a further run with this difference, e.g. integrator=implicit-euler, h=0.002; up to three");
-  add(c, "--resume", "FILE", run.resume_file,
-      "continue from a checkpoint; --steps and --duration count from its start");
-  add(c, "--replay", "FILE", run.replay_file, "pulls and pins by step, as the window records them");
-  c->add_flag("--force", run.force, "overwrite files");
-  add_json(c, run.json, "summary on stdout as JSON");
-  return c;
-}
-
-CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
-  CLI::App* c = add_command(app, "view", "Show a scene in a window", view_examples);
-  add(c, "scene", "SCENE", view.scene, "scene file or built-in name");
-  add(c, "--backend", "NAME", raw.backend, backend_words() + "; G switches it in the window");
-  add_arithmetic(c, raw);
-  add_overrides(c, view.overrides);
-  add(c, "--replay", "FILE", view.replay_file, "pulls and pins by step, as the window records them");
-  add(c, "--size", "WxH", raw.window_size, "size of the window; default: its last size");
-  add(c, "--layout", "NAME", view.layout,
-      fmt::format("arrangement of the panels: {}; default: the last one", fmt::join(window_layouts, ", ")));
-  return c;
-}
-
-CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
-  CLI::App* c = add_command(app, "compare", "Run two backends side by side, step by step", compare_examples);
-  add(c, "scene", "SCENE", compare.scene, "scene file or built-in name")->required();
-  c->add_option("--backends", raw.backends,
-                "the two backends, options after colons: gpu:per-spring,reference:double or cpu:fast,cpu")
-      ->delimiter(',')
-      ->expected(1, 100)
-      ->type_name("A,B")
-      ->default_str("gpu,reference");
-  add(c, "--force-path", "NAME", raw.force_path, "force path of gpu backends without their own");
-  add_arithmetic(c, raw);
-  add_length(c, compare.length);
-  add_overrides(c, compare.overrides);
-  add(c, "--replay", "FILE", compare.replay_file, "pulls and pins by step, as the window records them");
-  add(c, "--tolerance", "T", compare.tolerance,
-      "largest difference allowed, in m and m/s; 0: identical bits");
-  add_json(c, compare.json);
-  return c;
-}
-
-CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
-  CLI::App* c = add_command(app, "bench", "Measure throughput by backend, force path, size and integrator",
-                            bench_examples);
-  add(c, "scene", "SCENE", bench.scene, "scene file or built-in name");
-  add(c, "--backend", "NAME", raw.bench_backends,
-      "auto, gpu, gpu:gather, gpu:fast, cpu, cpu:fast, reference, reference:double")
-      ->delimiter(',');
-  add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends without their own")->delimiter(',');
-  add_arithmetic(c, raw);
-  auto* sizes = add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes", edges);
-  sizes->delimiter(',');
-  auto* integrators = add(c, "--integrator", "NAME", raw.bench_integrators, "instead of the scene's, or all");
-  integrators->delimiter(',');
-  auto* timestep = add(c, "--timestep", "WORD", raw.bench_timestep,
-                       "scene, or largest: 0.99 of the largest stable step, 1/60 s with implicit-euler");
-  auto* seconds = add(c, "--seconds", "S", bench.seconds, "time to spend on each case");
-  add(c, "--duration", "S", bench.duration, "simulated seconds of each repeat, however long they take")
-      ->excludes(seconds);
-  add(c, "--repeats", "N", bench.repeats, "runs of each case", repeats);
-  add(c, "--warm-up", "N", bench.warm_up, "runs of each case before them, not counted", {0, repeats.most});
-  auto* peers = c->add_flag("--peers", bench.with_peers,
-                            "next to other programs with the same cube, from a source checkout");
-  auto* peer = add(c, "--peer", "NAME", bench.peers, "only this one of them, e.g. textbook")->delimiter(',');
-  add(c, "--pictures", "WxH", raw.bench_pictures,
-      "what drawing the scene costs instead, by pass, 60 pictures a simulated second")
-      ->excludes(peers, peer, seconds, sizes, integrators, timestep);
-  add_overrides(c, bench.overrides);
-  add_json(c, bench.json);
-  return c;
-}
-
-CLI::App* add_sweep(CLI::App& app, SweepOptions& sweep, RawOptions& raw) {
-  CLI::App* c =
-      add_command(app, "sweep", "Run a scene at every point of a grid, a CSV row each", sweep_examples);
-  add(c, "scene", "SCENE", sweep.scene, "scene file or built-in name")->required();
-  add(c, "--vary", "KEY=VALUES", sweep.vary,
-      "from:to:count[:log] or a,b,c; KEY as for --set, or integrator, h, k, c, n, e, mu, backend")
-      ->required();
-  add(c, "--out", "FILE", sweep.out, "the CSV file; until it is complete, FILE.partial")->required();
-  add_backend(c, raw);
-  add_length(c, sweep.length);
-  add_overrides(c, sweep.overrides);
-  add(c, "--jobs", "N", sweep.jobs, "runs at once; default: the processors, or 1 where runs take a GPU", few);
-  add(c, "--part", "I/N", raw.part, "the I-th of N equal parts of the grid, for job arrays");
-  c->add_flag("--force", sweep.force, "overwrite the file and start over");
-  add_json(c, sweep.json, "numbers of rows on stdout as JSON");
-  return c;
-}
-
-CLI::App* add_report(CLI::App& app, ReportOptions& report) {
-  CLI::App* c =
-      add_command(app, "report", "Compare integrators and parameters, as a page with plots", report_examples);
-  add(c, "scene", "SCENE", report.scene, "scene file or built-in name");
-  add(c, "--out", "DIR", report.out, "directory for report.html, report.md, report.pdf, data and figures")
-      ->required();
-  add(c, "--only", "NAME", report.only,
-      "one section: integrators, parameters, stability, contact or backends; repeatable");
-  add(c, "--outline", "NAME", report.outline,
-      "order of chapters that a course suggests, with gaps for your own words: course (at most 10 pages)");
-  c->add_flag("--thorough", report.thorough, "finer maps, longer runs, larger sizes");
-  add(c, "--jobs", "N", report.jobs, "threads; default: the processors", few);
-  add_overrides(c, report.overrides);
-  c->add_flag("--force", report.force, "overwrite a report");
-  add_json(c, report.json, "names of the files on stdout as JSON");
-  return c;
-}
-
-CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
-  CLI::App* c = add_command(
-      app, "verify", "Check physics and equivalence on this machine, as a table of figures", verify_examples);
-  c->add_flag("--quick", verify.quick, "only checks that take seconds");
-  add(c, "--only", "NAME", verify.only, "one check or group, e.g. order or rest/midpoint; repeatable");
-  c->add_flag("--list", verify.list, "names and claims of the checks; nothing is run");
-  c->add_flag("--require-gpu", verify.require_gpu,
-              "fail if a check finds no GL device, instead of skipping it");
-  add_json(c, verify.json, "the table on stdout as JSON");
-  return c;
-}
-
-/// The four commands below `scene`, in their order.
-std::array<CLI::App*, 4> add_scene(CLI::App& app, SceneListOptions& list, SceneShowOptions& show,
-                                   SceneCheckOptions& check, SceneImportOptions& import) {
-  CLI::App* scene = add_command(app, "scene", "List, show, check and import scenes", scene_examples);
-  scene->require_subcommand(1);
-  CLI::App* c = add_command(*scene, "list", "The built-in scenes", scene_list_examples);
-  add_json(c, list.json, "as JSON");
-  CLI::App* s =
-      add_command(*scene, "show", "Print a scene as complete TOML, with every default", scene_show_examples);
-  add(s, "scene", "SCENE", show.scene, "scene file or built-in name")->required();
-  add_overrides(s, show.overrides);
-  CLI::App* k =
-      add_command(*scene, "check", "Counts, memory and stable time steps of a scene", scene_check_examples);
-  add(k, "scene", "SCENE", check.scene, "scene file or built-in name")->required();
-  add_json(k, check.json, "as JSON");
-  add_overrides(k, check.overrides);
-  CLI::App* i = add_command(*scene, "import", "Print Configuration.txt of the 2018 framework as a scene",
-                            scene_import_examples);
-  add(i, "file", "FILE", import.file, "the file to read")->required();
-  return {c, s, k, i};
-}
-
 }  // namespace
 
 Result<Command> parse_arguments(int argc, const char* const* argv) {
-  CLI::App app("Soft bodies of point masses and springs on OpenGL compute", "aspic");
-  app.footer(main_examples);
-  app.set_version_flag("--version", "aspic " ASPIC_VERSION);
-  app.require_subcommand(1);
-  RawOptions raw;
-  RunOptions run;
-  ViewOptions view;
-  CompareOptions compare;
-  BenchOptions bench;
-  SweepOptions sweep;
-  ReportOptions report;
-  VerifyOptions verify;
-  SceneListOptions list;
-  SceneShowOptions show;
-  SceneCheckOptions check;
-  SceneImportOptions import;
-  InfoOptions info;
   std::optional<Result<Command>> result;
-  const auto on = [&](CLI::App* command, auto finish) {
-    command->callback([&raw, &result, command, argc, argv, finish] {
-      raw.given = given_options(option_names(*command), {argv + 1, argv + argc});
-      result.emplace(finish());
-    });
-  };
-  on(add_run(app, run, raw), [&] {
-    run.words.assign(argv + 2, argv + argc);
-    return finish_run(run, raw);
+  CommandTable table([&](const CLI::App& command, const std::function<Result<Command>()>& complete) {
+    table.raw.given = given_options(option_names(command), {argv + 1, argv + argc});
+    // What `view` and the processes of `run` and `sweep` are started with.
+    for (std::vector<std::string>* words : {&table.run.words, &table.view.words, &table.sweep.words})
+      words->assign(argv + 2, argv + argc);
+    result.emplace(complete());
   });
-  on(add_view(app, view, raw), [&] {
-    view.words.assign(argv + 2, argv + argc);
-    return finish_view(view, raw);
-  });
-  on(add_compare(app, compare, raw), [&] { return finish_compare(compare, raw); });
-  on(add_bench(app, bench, raw), [&] { return finish_bench(bench, raw); });
-  on(add_sweep(app, sweep, raw), [&] {
-    sweep.words.assign(argv + 2, argv + argc);
-    return finish_sweep(sweep, raw);
-  });
-  on(add_report(app, report), [&] { return Command(report); });
-  on(add_verify(app, verify), [&] { return Command(verify); });
-  const auto scenes = add_scene(app, list, show, check, import);
-  on(scenes[0], [&] { return Command(list); });
-  on(scenes[1], [&] { return Command(show); });
-  on(scenes[2], [&] { return Command(check); });
-  on(scenes[3], [&] { return Command(import); });
-  CLI::App* info_command =
-      add_command(app, "info", "Devices, drivers, GL limits, and what auto picks", info_examples);
-  add_json(info_command, info.json, "as JSON");
-  on(info_command, [&] { return Command(info); });
+  CLI::App& app = table.app;
 
   if (argc == 2 && argv[1] == draw_word) return Command(DrawOptions{});
   // What a sweep starts: an option of no person's, and none of --help.
-  sweep.worker =
+  table.sweep.worker =
       argc > 2 && std::string_view(argv[1]) == "sweep" && std::string_view(argv[argc - 1]) == "--worker";
-  if (sweep.worker) --argc;
+  if (table.sweep.worker) --argc;
   if (argc < 2) return usage("no command given.\n\n{}", app.help());
   try {
     app.parse(argc, argv);

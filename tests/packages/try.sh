@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# try.sh HASH: tries the packages of an empty Debian, in its chroot (scripts/package.sh). This folder has them in packages/, the sources in
+# aspic/. HASH is what the program hashes in the build: that of cube-bowl after 200 steps. Each step says what it found; the first that fails ends it.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+wanted=$1
+export DEBIAN_FRONTEND=noninteractive
+cd "$here"
+log=$here/log
+
+quietly() { "$@" >"$log" 2>&1 || { tail -n 30 "$log"; fail "$* failed"; }; }
+fail() { echo "FAILED: $*"; exit 1; }
+# expect NAME HASH
+expect() {
+  [ "$2" = "$wanted" ] || fail "$1 ends with the state $2 in place of $wanted"
+  echo "$1: $2"
+}
+get() { quietly apt-get install -q -y --no-install-recommends "$@"; }
+# Everything of a package, wherever it is; not what apt keeps of packages that were there.
+traces() { find / -xdev -path "$here" -prune -o -path /proc -prune -o -path /sys -prune -o -path /var/log -prune -o -path /var/cache -prune -o -iname '*aspic*' -print; }
+
+[ -z "$(traces)" ] || fail "this Debian has Aspic already: $(traces)"
+quietly apt-get update -q
+
+echo "--- aspic"
+get ./packages/aspic_*.deb
+aspic --version
+state() { aspic run cube-bowl --steps 200 --json --backend "$@" | sed -n 's/.*"state_hash": *"\([0-9a-f]*\)".*/\1/p'; }
+expect "aspic run on reference" "$(state reference)"
+expect "aspic run on cpu" "$(state cpu)"
+if ldconfig -p | grep -q libEGL.so; then fail "EGL came with aspic: it is recommended, not needed"; fi
+code=0
+aspic run cube-bowl --steps 200 --backend gpu >"$log" 2>&1 || code=$?
+[ "$code" = 4 ] || fail "without EGL, --backend gpu ended with $code in place of 4: $(cat "$log")"
+echo "gpu, without EGL: $(head -n 1 "$log")"
+aspic-view --help | grep -q 'Usage: aspic view' || fail "aspic-view --help"
+code=0
+aspic view >"$log" 2>&1 || code=$?
+[ "$code" = 4 ] || fail "without a display, aspic view ended with $code in place of 4: $(cat "$log")"
+echo "aspic view, without a display: $(head -n 1 "$log")"
+bash -c 'source /usr/share/bash-completion/completions/aspic && complete -p aspic-view >/dev/null' || fail "bash does not read the completion"
+get man-db desktop-file-utils
+# Debians that were made small leave out manual pages.
+for page in aspic aspic-run aspic-view aspic-scene; do
+  MANWIDTH=80 LC_ALL=C.UTF-8 man "$page" 2>"$log" | grep -q 'EXIT STATUS' || fail "man $page: $(cat "$log")"
+  [ ! -s "$log" ] || fail "man $page says $(cat "$log")"
+done
+quietly desktop-file-validate /usr/share/applications/aspic.desktop
+[ ! -s "$log" ] || fail "desktop-file-validate says $(cat "$log")"
+[ -s /usr/share/icons/hicolor/scalable/apps/aspic.svg ] || fail "there is no icon"
+[ -s /usr/share/doc/aspic/scene-reference.md ] || fail "there are no documents"
+
+echo "--- with EGL and Mesa"
+get libegl1 libgl1-mesa-dri
+expect "aspic run on gpu" "$(state gpu)"
+
+echo "--- libaspic-dev"
+get ./packages/libaspic*.deb g++ cmake make
+mkdir -p lab
+cp aspic/examples/minimal.cpp lab
+for kind in shared static; do
+  cat >lab/CMakeLists.txt <<END
+cmake_minimum_required(VERSION 3.25)
+project(lab LANGUAGES CXX)
+find_package(aspic 0.2 REQUIRED COMPONENTS $kind)
+add_executable(lab minimal.cpp)
+target_link_libraries(lab PRIVATE aspic::aspic)
+END
+  quietly cmake -S lab -B "lab/$kind" -DCMAKE_BUILD_TYPE=Release
+  quietly cmake --build "lab/$kind"
+  for backend in cpu gpu; do
+    expect "find_package(aspic), $kind, on $backend" "$("lab/$kind/lab" cube-bowl 200 "$backend" | awk '/^state hash/ { print $3 }')"
+  done
+done
+quietly g++ -std=c++20 lab/minimal.cpp $(pkg-config --cflags --libs aspic) -o lab/by-pkg-config
+expect "pkg-config" "$(lab/by-pkg-config cube-bowl 200 cpu | awk '/^state hash/ { print $3 }')"
+
+echo "--- python3-aspic"
+get ./packages/python3-aspic_*.deb
+for backend in reference cpu gpu; do
+  expect "python3 on $backend" "$(python3 -c "import aspic; sim = aspic.Simulation('cube-bowl', '$backend'); sim.step(200); print(sim.hash)")"
+done
+get python3-pytest
+# What PyPI's newer tools check (types, notebooks) is left to the wheel's test.
+quietly env PYTHONDONTWRITEBYTECODE=1 python3 -m pytest -q -p no:cacheprovider aspic/python/tests
+tail -n 1 "$log"
+
+echo "--- removal"
+quietly apt-get purge -q -y aspic 'libaspic*' python3-aspic
+left=$(traces)
+[ -z "$left" ] || fail "removal leaves $left"
+[ -z "$(dpkg-query -W -f '${db:Status-Abbrev}${Package} ' '*aspic*' 2>/dev/null | grep -v '^un' || true)" ] || fail "dpkg knows of it still"
+echo "nothing is left"
