@@ -56,6 +56,7 @@ function(aspic_control_text result file)
   file(READ "${file}" text)
   string(STRIP "${text}" text)
   string(REGEX REPLACE "[ \t]+\n" "\n" text "${text}")
+  string(REGEX REPLACE "\nFiles: debian/[^\n]*(\n[^\n]+)*" "" text "${text}")  # packaging, which is no part of ours
   string(REPLACE "\n" "\n " text " ${text}")
   string(REGEX REPLACE "\n \n" "\n .\n" text "${text}")
   string(REGEX REPLACE "\n \n" "\n .\n" text "${text}")
@@ -107,7 +108,7 @@ aspic_package(runtime ${soname_package} SECTION libs RECOMMENDS "${device}" LICE
   DESCRIPTION "soft bodies of point masses and springs - shared library\n${about}\n.\nThis package has the library that programs are linked with.")
 
 aspic_package(library libaspic-dev SECTION libdevel LICENCES ${within}
-  DEPENDS "${soname_package} (= ${version}), libfmt-dev, libhwy-dev, libspng-dev, libstb-dev, libtomlplusplus-dev, libturbojpeg0-dev, zlib1g-dev, pkg-config"
+  DEPENDS "${soname_package} (= ${version}), libfmt-dev, libhwy-dev, libspng-dev, libstb-dev, libtomlplusplus-dev, libturbojpeg0-dev, zlib1g-dev, pkgconf"
   DESCRIPTION "soft bodies of point masses and springs - development files\n${about}\n.\nThis package has the headers, the static library, and what CMake's\nfind_package(aspic) and pkg-config read.")
 
 # The module is for one version of Python: without nanobind's split mode it uses more than the stable ABI of 3.10.

@@ -11,7 +11,8 @@ scripts/test.sh [--full] ARGUMENT …  with arguments of ctest. -R, -L and -I ch
                                      scripts/test.sh -R EqualBits; scripts/test.sh -L drivers
 
 core      each room's own tests; the gpu solvers on llvmpipe with a covering set of methods, terrains, contact
-          models, force paths and bodies; pictures; the command line; the Python package; the window's main tests
+          models, force paths and bodies; pictures; the command line, its manual pages and completion; the Python
+          package; the window's main tests
 full      core, and by label:
   pages        pages of every built-in scene in Chromium and Firefox
   products     equal bits in products of methods, terrains and paths, and for more particles
@@ -30,6 +31,7 @@ full      core, and by label:
   fuzzers      ten seconds each (scripts/fuzz.sh)
 
 Left to scripts/check.sh: the full tier under sanitizers, the thread sanitizer, clang-tidy, types of all translation units.
+Left to scripts/debians.sh and scripts/package.sh: both Debians, and packages in empty ones.
 END
 }
 

@@ -18,6 +18,10 @@ print("threads", len(os.listdir("/proc/self/task")))
 """
 
 
+# A wheel's module is for the stable ABI, with nanobind's run time outside of it; a distribution's has it inside.
+RUN_TIME = " nanobind_backend" if ".abi3." in str(sys.modules["aspic._aspic"].__file__) else ""
+
+
 def report(program: str) -> dict[str, str]:
     out = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
     return {line.partition(" ")[0]: line.partition(" ")[2] for line in out.splitlines()}
@@ -25,7 +29,7 @@ def report(program: str) -> dict[str, str]:
 
 def test_importing_loads_no_other_package_no_graphics_and_starts_no_thread() -> None:
     # Neither numpy, which takes longer than all the rest: it comes with the first array.
-    assert report(REPORT) == {"modules": "aspic nanobind_backend", "graphics": "", "threads": "1"}
+    assert report(REPORT) == {"modules": "aspic" + RUN_TIME, "graphics": "", "threads": "1"}
 
 
 def test_stepping_on_the_cpu_loads_no_graphics() -> None:
@@ -35,7 +39,9 @@ def test_stepping_on_the_cpu_loads_no_graphics() -> None:
 
 def test_arrays_need_numpy_alone() -> None:
     out = report(REPORT.replace("import aspic\n", "import aspic\naspic.Simulation('cube-plane', 'cpu').positions\n"))
-    assert out["modules"] == "aspic nanobind_backend numpy"
+    # Those of Cython are numpy's own, before numpy 2.
+    modules = [name for name in out["modules"].split() if not name.startswith(("_cython", "cython_runtime"))]
+    assert modules == f"aspic{RUN_TIME} numpy".split()
 
 
 def test_the_version_is_that_of_the_library() -> None:

@@ -22,7 +22,18 @@ def blocks(page: str) -> list[tuple[int, str]]:
     return found
 
 
-@pytest.mark.parametrize("page", ["docs/python.md", "README.md"])
+PAGES = ["docs/python.md", "README.md"]
+
+
+def test_no_page_with_python_is_forgotten() -> None:
+    if not (root / "docs").exists():
+        pytest.skip("the pages are not here")
+    pages = [root / "README.md", *(root / "docs").glob("*.md")]
+    found = [page for page in pages if page.exists() and "\n```python\n" in page.read_text(encoding="utf-8")]
+    assert {str(page.relative_to(root)) for page in found} <= set(PAGES)
+
+
+@pytest.mark.parametrize("page", PAGES)
 def test_every_block_of_a_page_runs(page: str) -> None:
     needs_pictures()
     names: dict[str, object] = {}

@@ -7,15 +7,17 @@ namespace aspic::manual {
 namespace {
 
 /// What follows an option: `command --option) …;;` of a case.
-std::string value_case(const CommandFacts& command, const OptionFacts& option) {
+std::string value_case(const CommandFacts& command, const OptionFacts& option, LongLists& lists) {
   if (!takes_value(option)) return "";
   std::string patterns;
   for (const std::string& name : option.names)
-    patterns += (patterns.empty() ? "" : " | ") + quoted(below_program(command) + " " + name);
+    patterns += (patterns.empty() ? "" : " | ") + in_quotes(below_program(command) + " " + name);
   const std::vector<std::string> words = known_values(command, option);
   std::string offer;
-  if (!words.empty())
-    offer = "words=" + quoted(joined(words, " "));
+  if (const std::size_t number = lists.number_of(words))
+    offer = fmt::format("words=$list_{}", number);
+  else if (!words.empty())
+    offer = "words=" + in_quotes(joined(words, " "));
   else if (kind_of(option) == NameKind::file)
     offer = "names=file";
   else if (kind_of(option) == NameKind::directory)
@@ -28,9 +30,9 @@ std::string command_case(const CommandFacts& command) {
   for (const OptionFacts& option : command.options)
     options.insert(options.end(), option.names.begin(), option.names.end());
   for (const CommandFacts& below : command.commands) commands.push_back(last_word(below));
-  std::string text = fmt::format("        {})\n          options={}\n", quoted(below_program(command)),
-                                 quoted(joined(options, " ")));
-  if (!commands.empty()) text += "          words=" + quoted(joined(commands, " ")) + "\n";
+  std::string text = fmt::format("        {})\n          options={}\n", in_quotes(below_program(command)),
+                                 in_quotes(joined(options, " ")));
+  if (!commands.empty()) text += "          words=" + in_quotes(joined(commands, " ")) + "\n";
   for (const OptionFacts& argument : command.arguments) {
     const bool scene = kind_of(argument) == NameKind::scene;
     if (scene) text += "          words=$scenes\n";
@@ -45,14 +47,17 @@ std::vector<TextFile> bash_completion(const CommandFacts& aspic) {
   std::vector<const CommandFacts*> all;
   collect(aspic, all);
   std::string commands, values, cases;
+  LongLists lists;
   for (const CommandFacts* command : all) {
-    if (command != &aspic) commands += (commands.empty() ? "" : " | ") + quoted(below_program(*command));
-    for (const OptionFacts& option : command->options) values += value_case(*command, option);
+    if (command != &aspic) commands += (commands.empty() ? "" : " | ") + in_quotes(below_program(*command));
+    for (const OptionFacts& option : command->options) values += value_case(*command, option, lists);
     cases += command_case(*command);
   }
   std::string text =
       "# Completion of aspic and aspic-view for bash. Made from the options of the programs.\n";
-  text += "_aspic() {\n  local scenes=" + quoted(joined(scene_names(), " ")) + "\n";
+  text += "_aspic() {\n  local scenes=" + in_quotes(joined(scene_names(), " ")) + "\n";
+  for (std::size_t i = 0; i < lists.lists().size(); ++i)
+    text += fmt::format("  local list_{}={}\n", i + 1, in_quotes(joined(lists.lists()[i], " ")));
   text +=
       R"(  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= word names= words= options= i
   [[ ${COMP_WORDS[0]##*/} == aspic-view ]] && command=view

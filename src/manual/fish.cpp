@@ -63,7 +63,7 @@ std::string value_text(const CommandFacts& command, const OptionFacts& option) {
 }
 
 /// Lines for one command, of a program that is called `program`.
-std::string lines_of(const CommandFacts& command, const std::string& program, const std::string& when) {
+std::string command_lines(const CommandFacts& command, const std::string& program, const std::string& when) {
   std::string text;
   const std::string start = "complete -c " + program + (when.empty() ? "" : " -n " + fish_quoted(when));
   for (const CommandFacts& below : command.commands)
@@ -93,8 +93,8 @@ std::vector<TextFile> fish_completion(const CommandFacts& aspic) {
   collect(aspic, all);
   std::string program = first + "complete -c aspic -f\n", window = first + "complete -c aspic-view -f\n";
   for (const CommandFacts* command : all) {
-    program += lines_of(*command, "aspic", condition(*command));
-    if (command->name == "aspic view") window += lines_of(*command, "aspic-view", "");
+    program += command_lines(*command, "aspic", condition(*command));
+    if (command->name == "aspic view") window += command_lines(*command, "aspic-view", "");
   }
   return {{"fish/aspic.fish", program}, {"fish/aspic-view.fish", window}};
 }

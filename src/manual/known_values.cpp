@@ -94,7 +94,7 @@ std::vector<std::string> known_values(const CommandFacts& command, const OptionF
   if (name == "--frames-format") {
     Words words;
     for (const FilmFormat& format : film_formats())
-      if (format.is_directory()) words.emplace_back(format.name);
+      if (format.is_directory()) words.emplace_back(format.ending.substr(1));
     return words;
   }
   if (name == "--set") return keys(false);

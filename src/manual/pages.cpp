@@ -83,7 +83,7 @@ std::string option_entry(const OptionFacts& option) {
   return fmt::format(".TP\n{}\n{}\n", names, help);
 }
 
-/// Arguments and options, and those of the commands below, each in a part of its own.
+/// Arguments, then options.
 std::string options_of(const CommandFacts& command) {
   std::string roff;
   for (const OptionFacts& argument : command.arguments) {
@@ -118,6 +118,18 @@ std::string exit_status(const Sections& page) {
   return ".SH EXIT STATUS\n" + roff_of(section(page, "Exit codes"));
 }
 
+/// Without blocks of code.
+std::vector<std::string> without_code(const std::vector<std::string>& lines) {
+  std::vector<std::string> rest;
+  bool code = false;
+  for (const std::string& line : lines) {
+    const bool fence = line.starts_with("```");
+    if (fence) code = !code;
+    if (!fence && !code) rest.push_back(line);
+  }
+  return rest;
+}
+
 std::string surroundings(const Sections& page) {
   return ".SH ENVIRONMENT\n" + roff_of(section(page, "Environment")) + ".SH FILES\n" +
          roff_of(section(page, "Files"));
@@ -139,7 +151,7 @@ std::string see_also(const CommandFacts& aspic, const CommandFacts& command) {
     at = end + 2;
   }
   return ".SH SEE ALSO\n" + lines +
-         ".PP\nThe other documents that this page names are in \\fI/usr/share/doc/aspic\\fR.\n";
+         ".PP\nOther documents that this page names are installed in \\fIshare/doc/aspic\\fR.\n";
 }
 
 std::string name_section(const CommandFacts& command) {
@@ -154,8 +166,8 @@ std::string name_section(const CommandFacts& command) {
 std::string main_page(const CommandFacts& aspic, const Sections& page, std::string_view date) {
   const Footer footer = footer_of(aspic.footer);
   std::string roff = title(aspic, date) + name_section(aspic) + ".SH SYNOPSIS\n" + synopsis_line(aspic);
-  roff +=
-      ".br\n\\fBaspic\\fR \\fICOMMAND\\fR \\fB\\-\\-help\\fR\n.SH DESCRIPTION\n" + roff_of(section(page, ""));
+  roff += ".br\n\\fBaspic\\fR \\fICOMMAND\\fR \\fB\\-\\-help\\fR\n.SH DESCRIPTION\n" +
+          roff_of(without_code(section(page, "")));
   roff += ".SH COMMANDS\n";
   for (const CommandFacts& command : aspic.commands)
     roff +=
@@ -189,7 +201,10 @@ std::string command_page(const CommandFacts& aspic, const CommandFacts& command,
     for (const std::string& line : more.examples)
       if (std::ranges::find(footer.examples, line) == footer.examples.end()) footer.examples.push_back(line);
   }
-  roff += exit_status(page) + surroundings(page) + examples_of(footer.examples);
+  roff += exit_status(page);
+  roff += window ? surroundings(page)
+                 : ".SH ENVIRONMENT\n.BR aspic (1)\nhas a list of the environment variables.\n";
+  roff += examples_of(footer.examples);
   return roff + see_also(aspic, command);
 }
 

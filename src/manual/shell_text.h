@@ -1,5 +1,7 @@
 #pragma once
 // What the completions of all shells share.
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,7 +11,7 @@
 namespace aspic::manual {
 
 /// Between single quotation marks, for bash, zsh and other shells of POSIX.
-inline std::string quoted(std::string_view text) {
+inline std::string in_quotes(std::string_view text) {
   std::string result = "'";
   for (const char c : text) c == '\'' ? result += "'\\''" : result += c;
   return result + "'";
@@ -20,6 +22,23 @@ inline std::string joined(const std::vector<std::string>& words, std::string_vie
   for (const std::string& word : words) text += (text.empty() ? "" : std::string(between)) + word;
   return text;
 }
+
+/// Words of options that are too many to be written at each one: every list of them once.
+class LongLists {
+ public:
+  /// The number of a list from 1 on; 0 if it is short.
+  std::size_t number_of(const std::vector<std::string>& words) {
+    if (words.size() <= 12) return 0;
+    const auto known = std::ranges::find(lists_, words);
+    if (known != lists_.end()) return static_cast<std::size_t>(known - lists_.begin()) + 1;
+    lists_.push_back(words);
+    return lists_.size();
+  }
+  const std::vector<std::vector<std::string>>& lists() const { return lists_; }
+
+ private:
+  std::vector<std::vector<std::string>> lists_;
+};
 
 /// All commands that can be typed, each after those above it.
 inline void collect(const CommandFacts& command, std::vector<const CommandFacts*>& all) {

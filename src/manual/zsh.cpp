@@ -16,18 +16,11 @@ std::string plain(std::string_view text) {
   return result;
 }
 
-/// What completes a value: an action of _arguments. Words of a list are read as words of the shell.
-std::string action(const CommandFacts& command, const OptionFacts& option) {
-  std::string list;
-  for (const std::string& word : known_values(command, option)) {
-    list += list.empty() ? "" : " ";
-    for (const char c : word) {
-      if (c == '[' || c == ']' || c == ':' || c == '\\') list += '\\';
-      list += c;
-    }
-  }
-  if (!list.empty() && list.ends_with('=')) return fmt::format("_values -S '' key {}", list);
-  if (!list.empty()) return "(" + list + ")";
+/// What completes a value: an action of _arguments.
+std::string action(const CommandFacts& command, const OptionFacts& option, LongLists& lists) {
+  const std::vector<std::string> words = known_values(command, option);
+  if (const std::size_t number = lists.number_of(words)) return fmt::format("_aspic_list_{}", number);
+  if (!words.empty()) return "(" + joined(words, " ") + ")";
   switch (kind_of(option)) {
     case NameKind::file:
       return "_files";
@@ -41,20 +34,21 @@ std::string action(const CommandFacts& command, const OptionFacts& option) {
   return " ";
 }
 
-std::string specifications(const CommandFacts& command) {
+std::string specifications(const CommandFacts& command, LongLists& lists) {
   std::string lines;
   for (const OptionFacts& option : command.options) {
     for (const std::string& name : option.names) {
       std::string specification =
           (option.repeatable ? "*" : "") + name + (takes_value(option) && name.starts_with("--") ? "=" : "");
       specification += "[" + plain(option.help) + "]";
-      if (takes_value(option)) specification += ":" + plain(option.value) + ":" + action(command, option);
-      lines += " \\\n    " + quoted(specification);
+      if (takes_value(option))
+        specification += ":" + plain(option.value) + ":" + action(command, option, lists);
+      lines += " \\\n    " + in_quotes(specification);
     }
   }
   for (const OptionFacts& argument : command.arguments)
-    lines += " \\\n    " + quoted(std::string(argument.required ? ":" : "::") + argument.value + ":" +
-                                  action(command, argument));
+    lines += " \\\n    " + in_quotes(std::string(argument.required ? ":" : "::") + argument.value + ":" +
+                                     action(command, argument, lists));
   return lines;
 }
 
@@ -66,15 +60,15 @@ std::string function_name(const CommandFacts& command) {
 }
 
 /// A function for each command: its options, then its argument or the commands below it.
-std::string function(const CommandFacts& command) {
+std::string command_function(const CommandFacts& command, LongLists& lists) {
   std::string text = function_name(command) + "() {\n";
-  if (command.commands.empty()) return text + "  _arguments -S" + specifications(command) + "\n}\n";
+  if (command.commands.empty()) return text + "  _arguments -S" + specifications(command, lists) + "\n}\n";
   std::string names, cases;
   for (const CommandFacts& below : command.commands) {
-    names += " \\\n        " + quoted(last_word(below) + ":" + plain(below.summary));
+    names += " \\\n        " + in_quotes(last_word(below) + ":" + plain(below.summary));
     cases += fmt::format("        {}) {} ;;\n", last_word(below), function_name(below));
   }
-  return text + "  local line state\n  _arguments -C -S" + specifications(command) +
+  return text + "  local line state\n  _arguments -C -S" + specifications(command, lists) +
          " \\\n    '1: :->command' '*:: :->rest'\n  case $state in\n    command)\n      local -a commands\n  "
          "    commands=(" +
          names + ")\n      _describe command commands\n      ;;\n    rest)\n      case $line[1] in\n" +
@@ -89,9 +83,17 @@ std::vector<TextFile> zsh_completion(const CommandFacts& aspic) {
   std::string text =
       "#compdef aspic aspic-view\n# Completion for zsh. Made from the options of the "
       "programs.\n\n_aspic_scenes() {\n  _alternative " +
-      quoted("scenes:built-in scene:(" + joined(scene_names(), " ") + ")") +
+      in_quotes("scenes:built-in scene:(" + joined(scene_names(), " ") + ")") +
       " \\\n    'files:scene file:_files -g \"*.toml\"'\n}\n";
-  for (const CommandFacts* command : all) text += function(*command);
+  LongLists lists;
+  for (const CommandFacts* command : all) text += command_function(*command, lists);
+  for (std::size_t i = 0; i < lists.lists().size(); ++i) {
+    const std::vector<std::string>& words = lists.lists()[i];
+    text += fmt::format("_aspic_list_{}() {{\n  compadd{} --", i + 1,
+                        words.back().ends_with('=') ? " -S ''" : "");
+    for (const std::string& word : words) text += " " + in_quotes(word);
+    text += "\n}\n";
+  }
   text +=
       "if [[ $service == aspic-view ]]; then\n  _aspic_view_words \"$@\"\nelse\n  _aspic_words \"$@\"\nfi\n";
   return {{"zsh/_aspic", text}};

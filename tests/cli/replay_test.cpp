@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
+#include <string>
 
 #include "cli/process.h"
 
@@ -138,6 +140,32 @@ TEST_F(Replay, WrongLogsAreRefused) {
   const auto large = aspic({"run", "cube-plane", "--backend", "cpu", "--replay", dir_.file("large.toml")});
   EXPECT_EQ(large.exit_code, 2);
   EXPECT_THAT(large.err, HasSubstr("inputs from step 60 on: pulls[0]"));
+}
+
+// The log that docs/files.md shows names bodies of several kinds.
+TEST_F(Replay, ReadsTheLogOfItsPage) {
+  std::ifstream file(ASPIC_SOURCE_DIR "/docs/files.md");
+  const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string opening = "```toml\n";
+  const std::size_t from = page.find(opening) + opening.size();
+  ASSERT_NE(page.find(opening), std::string::npos);
+  dir_.write("page.toml", page.substr(from, page.find("```", from) - from));
+  const auto scene = aspic({"scene", "show", "cube-and-balls"});
+  dir_.write("scene.toml", scene.out + R"(
+[[cloth]]
+particles = [4, 4]
+size = [1.0, 1.0]
+position = [0.0, 9.0, 6.0]
+particle-mass = 0.01
+structural = { stiffness = 100.0, damping = 0.1 }
+pinned = ["top"]
+)");
+  const auto hash = [&](const char* backend) {
+    return hash_of({dir_.file("scene.toml"), "--backend", backend, "--steps", "210", "--replay",
+                    dir_.file("page.toml")});
+  };
+  EXPECT_EQ(hash("cpu"), hash("reference"));
+  EXPECT_NE(hash("cpu"), hash_of({dir_.file("scene.toml"), "--backend", "cpu", "--steps", "210"}));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ trap 'rm -rf "$place"' EXIT
 
 # What needs PyPI: the interpreters' own packages. Nothing below asks for anything else.
 grep -v '^#' "$root/python/requirements.txt" >"$place/requirements.txt"
-"$python" -m pip download --quiet --disable-pip-version-check --dest "$place/kept" abi3audit==0.0.26 -r "$place/requirements.txt"
+"$python" -m pip download --quiet --disable-pip-version-check --dest "$place/kept" abi3audit==0.0.26 twine==7.0.0 check-wheel-contents==0.6.3 -r "$place/requirements.txt"
 quietly() { "$@" >"$place/log" 2>&1 || { cat "$place/log"; echo "$* failed"; exit 1; }; }
 offline=(--quiet --disable-pip-version-check --no-index --find-links "$place/kept")
 
@@ -57,7 +57,12 @@ quietly "$python" -m venv "$place/user"
 quietly "$place/user/bin/pip" install "${offline[@]}" aspic --find-links "$place/wheel"
 installed=$("$place/user/bin/pip" list --disable-pip-version-check --format=freeze | grep -vE '^(pip|setuptools|wheel)==' | cut -d= -f1 | sort | tr '\n' ' ')
 [ "$installed" = "aspic nanobind-backend numpy " ] || { echo "Installing aspic brought $installed"; exit 1; }
-quietly "$place/user/bin/pip" install "${offline[@]}" pytest mypy abi3audit
-quietly "$place/user/bin/abi3audit" --strict "$wheel"
+quietly "$place/user/bin/pip" install "${offline[@]}" pytest mypy
+# The checkers have an environment to themselves, since they bring much along.
+quietly "$python" -m venv "$place/checker"
+quietly "$place/checker/bin/pip" install "${offline[@]}" abi3audit twine check-wheel-contents
+quietly "$place/checker/bin/abi3audit" --strict "$wheel"
+quietly "$place/checker/bin/twine" check --strict "$sdist" "$wheel"
+quietly "$place/checker/bin/check-wheel-contents" "$wheel"
 cd "$place"
 ASPIC_PROGRAM=$program "$place/user/bin/python" -B -m pytest -q -p no:cacheprovider "$source/python/tests"

@@ -1,0 +1,12 @@
+# CPACK_POST_BUILD_SCRIPTS: CPack gives a package with a shared library a postinst and a postrm that call ldconfig. Debian's policy (8.1.1)
+# has the trigger for it, which the package has too; so it is put together once more without them.
+foreach(package IN LISTS CPACK_PACKAGE_FILES)
+  if(NOT package MATCHES "/libaspic[0-9][^/]*\\.deb$")
+    continue()
+  endif()
+  set(content "${package}-content")
+  execute_process(COMMAND dpkg-deb --raw-extract "${package}" "${content}" COMMAND_ERROR_IS_FATAL ANY)
+  file(REMOVE "${content}/DEBIAN/postinst" "${content}/DEBIAN/postrm")
+  execute_process(COMMAND dpkg-deb --root-owner-group -Zxz --build "${content}" "${package}" OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  file(REMOVE_RECURSE "${content}")
+endforeach()
