@@ -17,5 +17,6 @@
 #include "aspic/solver.h"      // Solver: load(), advance(), state(), set_inputs()
 #include "aspic/state.h"       // State, state_fields, state_hash_text()
 #include "aspic/state_view.h"  // StateView: numbers where they lie
+#include "aspic/sweep.h"       // sweep_run(), RunFigures: runs with names, for parameter studies
 #include "aspic/vec.h"         // Vec3
 #include "aspic/version.h"     // ASPIC_VERSION, library_version()

@@ -13,13 +13,14 @@ namespace aspic::cli {
 Status execute(const SweepOptions& options) {
   ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides, by_set));
   ASPIC_TRY(auto grid, report::make_grid(std::move(scene), options.backend, options.length, options.vary));
-  if (options.worker) return report::serve_sweep(std::move(grid));
+  if (options.worker) return report::serve_sweep(grid, options.runs);
 
   const InterruptGuard interrupt;
   report::SweepPlan plan;
   plan.part = {static_cast<std::size_t>(options.part), static_cast<std::size_t>(options.parts)};
   plan.jobs = options.jobs;
   plan.out = options.out;
+  plan.runs = options.runs;
   plan.force = options.force;
   plan.description = fmt::format("{} --vary {} by aspic {}", options.scene,
                                  fmt::join(options.vary, " --vary "), ASPIC_VERSION);
@@ -38,12 +39,16 @@ Status execute(const SweepOptions& options) {
                                {"rejected", counts.rejected},
                                {"failed", counts.failed},
                                {"resumed", counts.resumed},
-                               {"file", options.out}}));
+                               {"file", or_null(options.out)},
+                               {"folder", or_null(options.runs)}}));
   }
-  return print_text(
-      fmt::format("runs         {} ok, {} diverged, {} rejected, {} failed{}\nwrote        {}\n", counts.ok,
-                  counts.diverged, counts.rejected, counts.failed,
-                  counts.resumed > 0 ? fmt::format("; {} of them before", counts.resumed) : "", options.out));
+  std::string text =
+      fmt::format("runs         {} ok, {} diverged, {} rejected, {} failed{}\n", counts.ok, counts.diverged,
+                  counts.rejected, counts.failed,
+                  counts.resumed > 0 ? fmt::format("; {} of them before", counts.resumed) : "");
+  for (const std::string& place : {options.runs, options.out})
+    if (!place.empty()) text += fmt::format("wrote        {}\n", printable_line(place));
+  return print_text(text);
 }
 
 }  // namespace aspic::cli

@@ -202,7 +202,9 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& sweep, RawOptions& raw) {
   add(c, "--vary", "KEY=VALUES", sweep.vary,
       "from:to:count[:log] or a,b,c; KEY as for --set, or integrator, h, k, c, n, e, mu, backend")
       ->required();
-  add(c, "--out", "FILE", sweep.out, "the CSV file; until it is complete, FILE.partial")->required();
+  add(c, "--out", "FILE", sweep.out, "the CSV file; until it is complete, FILE.partial");
+  add(c, "--runs", "DIR", sweep.runs,
+      "a folder that keeps each finished run, also for Python: aspic.sweep()");
   add_backend(c, raw);
   add_length(c, sweep.length);
   add_overrides(c, sweep.overrides);

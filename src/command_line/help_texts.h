@@ -87,12 +87,14 @@ inline constexpr const char* sweep_examples = R"(Examples:
   aspic sweep cube-plane --vary "cube[0].velocity=[1,0,0],[2,0,0]" --vary mu=0:0.6:7 --out slides.csv
   aspic sweep large-cube --vary backend=cpu,gpu --duration 0.1 --out equal.csv
   aspic sweep my-scene.toml --vary k=100:10000:64:log --out k-3.csv --part 3/8
+  aspic sweep cube-plane --vary k=500:8000:3:log --runs sweep   a file each; those that are there are not repeated
 
 Every combination is a run; the last key varies fastest. h is the time step, k and c the stiffness and damping of all
 springs (the first gets the value, the others keep their ratios to it), n the particles per edge of all cubes, e and mu
 restitution and friction of all terrain. A run that diverges or that the scene rejects is a row with its reason. After a kill
 or Ctrl-C the same command continues. All columns but the last, seconds, are the same each time, whatever --jobs is;
-parts follow one another: awk 'FNR > 1 || NR == 1' k-*.csv joins them. docs/report.md explains the columns.)";
+parts follow one another: awk 'FNR > 1 || NR == 1' k-*.csv joins them. docs/report.md explains the columns,
+docs/sweeps.md the folder of --runs.)";
 
 inline constexpr const char* report_examples = R"(Examples:
   aspic report cube-plane --out report              about a minute on two processors

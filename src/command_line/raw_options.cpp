@@ -197,6 +197,8 @@ Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
 Result<Command> finish_sweep(SweepOptions sweep, const RawOptions& raw) {
   ASPIC_TRY(sweep.backend, one_backend(raw));
   ASPIC_CHECK(check_length(sweep.length));
+  if (sweep.out.empty() && sweep.runs.empty())
+    return usage("a sweep needs --out FILE.csv for its table, or --runs DIR for its runs, or both.");
   if (const std::string ending = ending_of(sweep.out);
       !ending.empty() && ending != ".csv" && !is_device_or_pipe(sweep.out))
     return usage("--out writes CSV, so its name {} must end in .csv.", printable_line(sweep.out));

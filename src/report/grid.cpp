@@ -150,12 +150,12 @@ Result<Grid> make_grid(Scene scene, const BackendChoice& backend, const RunLengt
     std::optional<Error> first;
     for (const std::string& value : axis.values) {
       const Grid alone = {grid.scene, grid.backend, grid.length, {{axis.key, {value}}}};
-      const auto run = grid_run(alone, 0);
-      if (run) {
+      const SweepRun run = grid_run(alone, 0);
+      if (!run.error) {
         first.reset();
         break;
       }
-      if (!first) first = run.error();
+      if (!first) first = run.error;
     }
     if (first) {
       return fail(*first, "--vary {}: none of the values makes a run; the first ends with\n{}", axis.key,
@@ -165,11 +165,11 @@ Result<Grid> make_grid(Scene scene, const BackendChoice& backend, const RunLengt
   return grid;
 }
 
-Result<Variant> grid_run(const Grid& grid, std::size_t index) {
+SweepRun grid_run(const Grid& grid, std::size_t index) {
   const std::vector<std::string> values = grid.values(index);
   std::vector<Difference> differences;
   for (std::size_t a = 0; a < values.size(); ++a) differences.push_back({grid.axes[a].key, values[a]});
-  return varied(grid.scene, grid.backend, differences);
+  return sweep_run(grid.scene, grid.backend, grid.length, differences);
 }
 
 }  // namespace aspic::report

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "aspic/scene.h"
+#include "aspic/sweep.h"
 #include "run/backends.h"
 #include "run/run_length.h"
-#include "run/variant.h"
 
 namespace aspic::report {
 
@@ -46,7 +46,7 @@ struct Grid {
 Result<Grid> make_grid(Scene scene, const BackendChoice& backend, const RunLength& length,
                        const std::vector<std::string>& vary);
 
-/// What a run of the grid simulates, and with what. Errors: those of its scene and of its backend's name.
-Result<Variant> grid_run(const Grid& grid, std::size_t index);
+/// What a run of the grid simulates, and with what.
+SweepRun grid_run(const Grid& grid, std::size_t index);
 
 }  // namespace aspic::report

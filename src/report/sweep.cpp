@@ -21,6 +21,7 @@
 #include "io/child_process.h"
 #include "io/console.h"
 #include "report/csv.h"
+#include "report/run_folder.h"
 #include "report/sweep_rows.h"
 #include "run/window_host.h"
 
@@ -37,8 +38,9 @@ constexpr std::string_view ready = "ready";
 /// A process that does one run after another, restarted when a run takes it down.
 class Worker {
  public:
-  Worker(const std::vector<std::string>& command, const Greeting& greeting)
-      : command_(command), greeting_(greeting) {}
+  /// `folder`: null, or where a run that takes the process down is kept.
+  Worker(const std::vector<std::string>& command, const Greeting& greeting, const RunFolder* folder)
+      : command_(command), greeting_(greeting), folder_(folder) {}
 
   /// The row of a run; nothing once the worker was told to end. Error (io): no process.
   Result<std::optional<std::string>> row(const Grid& grid, std::size_t index) {
@@ -50,11 +52,12 @@ class Worker {
     const std::lock_guard lock(mutex_);
     if (ended_) return std::optional<std::string>();
     const ChildProcess::End end = child_->finish();
-    TrialResult lost;
+    RunRow lost;
     lost.outcome = Outcome::failed;
     lost.reason = end.signal != 0 ? fmt::format("signal {} ended the process", end.signal)
                                   : fmt::format("the process ended with exit code {}", end.exit_code);
     child_.reset();
+    if (folder_) ASPIC_CHECK(folder_->write(grid_run(grid, index), lost));
     return std::optional(sweep_row(grid, index, lost));
   }
 
@@ -88,6 +91,7 @@ class Worker {
 
   const std::vector<std::string>& command_;
   const Greeting& greeting_;
+  const RunFolder* folder_;
   std::mutex mutex_;  // of all below; child_ itself changes on the worker's own thread alone
   bool ended_ = false;
   std::optional<ChildProcess> child_;
@@ -96,9 +100,11 @@ class Worker {
 /// Workers, each on its own thread, and the rows that they deliver.
 class Crew {
  public:
-  Crew(const SweepPlan& plan, const Greeting& greeting, unsigned jobs, std::deque<std::size_t> runs)
+  Crew(const SweepPlan& plan, const Greeting& greeting, unsigned jobs, std::deque<std::size_t> runs,
+       const RunFolder* folder)
       : plan_(plan), runs_(std::move(runs)) {
-    for (unsigned j = 0; j < jobs; ++j) workers_.push_back(std::make_unique<Worker>(plan.command, greeting));
+    for (unsigned j = 0; j < jobs; ++j)
+      workers_.push_back(std::make_unique<Worker>(plan.command, greeting, folder));
     for (const auto& worker : workers_) threads_.emplace_back([this, w = worker.get()] { work(*w); });
   }
   ~Crew() {
@@ -188,25 +194,64 @@ SweepCounts count_rows(const std::map<std::size_t, std::string>& rows, const Gri
   return counts;
 }
 
+/// Rows of finished runs, and where they are kept: the journal, or the folder in which workers keep them.
+class KeptRows {
+ public:
+  static Result<KeptRows> open(const SweepPlan& plan) {
+    KeptRows kept;
+    if (plan.runs.empty()) {
+      if (plan.force) ::unlink(journal_path(plan.out).c_str());
+      const std::string owner = fmt::format("{}, part {}/{}, grid {}", plan.description, plan.part.i,
+                                            plan.part.n, plan.grid.identity());
+      ASPIC_TRY(auto journal, SweepJournal::open(plan.out, owner));
+      kept.rows_ = journal.rows();
+      kept.journal_.emplace(std::move(journal));
+      return kept;
+    }
+    ASPIC_TRY(auto folder, RunFolder::open(plan.runs, plan.grid.scene));
+    for (std::size_t i = plan.first(); i < plan.end() && !plan.force; ++i)
+      if (const auto row = folder.read(grid_run(plan.grid, i))) kept.rows_[i] = sweep_row(plan.grid, i, *row);
+    kept.folder_.emplace(std::move(folder));
+    return kept;
+  }
+
+  const std::map<std::size_t, std::string>& rows() const { return rows_; }
+  const RunFolder* folder() const { return folder_ ? &*folder_ : nullptr; }
+  Status add(std::size_t index, const std::string& row) {
+    if (journal_) ASPIC_CHECK(journal_->add(index, row));
+    rows_[index] = row;
+    return {};
+  }
+  /// The sweep is complete.
+  void finish() {
+    if (journal_) journal_->remove();
+  }
+
+ private:
+  std::map<std::size_t, std::string> rows_;
+  std::optional<SweepJournal> journal_;
+  std::optional<RunFolder> folder_;
+};
+
+Result<AtomicFile> open_output(const SweepPlan& plan) {
+  return AtomicFile::create(plan.out, plan.force ? Overwrite::allow : Overwrite::refuse);
+}
+
 }  // namespace
 
 Result<SweepCounts> run_sweep(const SweepPlan& plan, const InterruptGuard& interrupt) {
   const Grid& grid = plan.grid;
-  const Overwrite overwrite = plan.force ? Overwrite::allow : Overwrite::refuse;
-  {
+  if (!plan.out.empty()) {
     // Proves that the output can be written; not kept, since a kill would leave its temporary file behind.
-    ASPIC_TRY(const auto proof, AtomicFile::create(plan.out, overwrite));
+    ASPIC_TRY(const auto proof, open_output(plan));
   }
-  if (plan.force) ::unlink(journal_path(plan.out).c_str());
-  const std::string owner =
-      fmt::format("{}, part {}/{}, grid {}", plan.description, plan.part.i, plan.part.n, grid.identity());
-  ASPIC_TRY(auto journal, SweepJournal::open(plan.out, owner));
+  ASPIC_TRY(auto kept, KeptRows::open(plan));
 
   std::deque<std::size_t> runs;
-  for (std::size_t i = plan.part.first(grid.size()); i < plan.part.end(grid.size()); ++i) {
-    if (!journal.rows().contains(i)) runs.push_back(i);
+  for (std::size_t i = plan.first(); i < plan.end(); ++i) {
+    if (!kept.rows().contains(i)) runs.push_back(i);
   }
-  const std::size_t resumed = journal.rows().size(), wanted = runs.size();
+  const std::size_t resumed = kept.rows().size(), wanted = runs.size();
   if (wanted > 0) {
     const BackendRow& usual = grid.backend.row ? *grid.backend.row : *choose_automatically(grid.backend).row;
     ASPIC_TRY(const unsigned processors, parallel::available_threads());
@@ -215,31 +260,33 @@ Result<SweepCounts> run_sweep(const SweepPlan& plan, const InterruptGuard& inter
     const Greeting greeting = {grid.identity(), std::string(usual.name), std::max(1u, processors / jobs)};
     ProgressBar bar(wanted, "run");
     ProgressLines lines(wanted, "runs");
-    Crew crew(plan, greeting, jobs, std::move(runs));
+    Crew crew(plan, greeting, jobs, std::move(runs), kept.folder());
     for (std::size_t done = 0; done < wanted;) {
       if (interrupt.interrupted())
-        return fail(ErrorCode::interrupted,
-                    "interrupted after {} of {} runs; the same command continues from {}.",
-                    journal.rows().size(), resumed + wanted, journal_path(plan.out));
+        return fail(
+            ErrorCode::interrupted, "interrupted after {} of {} runs; the same command continues from {}.",
+            kept.rows().size(), resumed + wanted, plan.runs.empty() ? journal_path(plan.out) : plan.runs);
       ASPIC_TRY(const auto row, crew.next());
       if (row) {
-        ASPIC_CHECK(journal.add(row->index, row->text));
+        ASPIC_CHECK(kept.add(row->index, row->text));
         lines.update(++done);
       }
       bar.update(done);
     }
   }
-  ASPIC_TRY(auto file, AtomicFile::create(plan.out, overwrite));
-  ASPIC_CHECK(file.write(sweep_header(grid)));
-  for (const auto& [index, row] : journal.rows()) ASPIC_CHECK(file.write(row));
-  ASPIC_CHECK(file.commit());
-  SweepCounts counts = count_rows(journal.rows(), grid);
+  if (!plan.out.empty()) {
+    ASPIC_TRY(auto file, open_output(plan));
+    ASPIC_CHECK(file.write(sweep_header(grid)));
+    for (const auto& [index, row] : kept.rows()) ASPIC_CHECK(file.write(row));
+    ASPIC_CHECK(file.commit());
+  }
+  SweepCounts counts = count_rows(kept.rows(), grid);
   counts.resumed = resumed;
-  journal.remove();
+  kept.finish();
   return counts;
 }
 
-Status serve_sweep(Grid grid) {
+Status serve_sweep(const Grid& grid, const std::string& runs) {
   // A run whose parent is gone would compute a row that nobody reads.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   std::string identity, backend;
@@ -247,23 +294,34 @@ Status serve_sweep(Grid grid) {
   std::cin >> identity >> backend >> threads;
   if (!std::cin || identity != grid.identity())
     return fail(ErrorCode::usage, "the scene has changed since the sweep began; start over with --force.");
-  if (!grid.backend.row) grid.backend = choice_for(find_backend(backend), grid.backend);
-  const bool given = grid.backend.threads > 0;
+  std::optional<RunFolder> folder;
+  if (!runs.empty()) {
+    ASPIC_TRY(folder, RunFolder::open(runs, grid.scene));
+  }
   ASPIC_CHECK(print_data(fmt::format("{}\n", ready)));
   for (std::size_t index = 0; std::cin >> index;) {
+    const SweepRun run = grid_run(grid, index);
     TrialResult result;
-    if (auto run = grid_run(grid, index)) {
-      if (!given && run->backend.row && run->backend.row->threaded) run->backend.threads = threads;
-      auto model = build_model(run->scene.model);
+    if (run.error) {
+      result = trial_error(*run.error);
+    } else {
+      BackendChoice choice = run.backend.row ? run.backend : choice_for(find_backend(backend), run.backend);
+      if (choice.threads == 0 && choice.row->threaded) choice.threads = threads;
+      auto model = build_model(run.scene.model);
       if (model) {
-        ASPIC_TRY(result, run_trial(shared(std::move(*model)), {run->backend, grid.length}));
+        ASPIC_TRY(result, run_trial(shared(std::move(*model)), {choice, {run.steps, {}}}));
       } else {
         result = trial_error(model.error());
       }
-    } else {
-      result = trial_error(run.error());
     }
-    ASPIC_CHECK(print_data(sweep_row(grid, index, result)));
+    RunRow row = row_of(result);
+    if (folder) {
+      if (const auto written = folder->write(run, row); !written) {
+        row.outcome = Outcome::failed;
+        row.reason = written.error().what;
+      }
+    }
+    ASPIC_CHECK(print_data(sweep_row(grid, index, row)));
   }
   return {};
 }

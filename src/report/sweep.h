@@ -1,5 +1,5 @@
 #pragma once
-// A sweep: the runs of a grid in separate processes, their rows in a file.
+// A sweep: the runs of a grid in separate processes, their rows in a file, or each in one of its own.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -22,10 +22,14 @@ struct SweepPlan {
   Grid grid;
   Part part;
   unsigned jobs = 0;  ///< processes; 0: as many as there are processors, or one where runs take a device
-  std::string out;    ///< the CSV file
+  std::string out;    ///< the CSV file; empty: none
+  std::string runs;   ///< the folder that keeps each finished run; empty: the journal of `out` does
   bool force = false;
   std::string description;           ///< what the journal says of it: the command and its version
   std::vector<std::string> command;  ///< that starts a worker: a program which calls serve_sweep()
+
+  std::size_t first() const { return part.first(grid.size()); }  ///< of the part's runs
+  std::size_t end() const { return part.end(grid.size()); }      ///< after them
 };
 
 /// Numbers of rows by outcome.
@@ -34,13 +38,14 @@ struct SweepCounts {
   std::string first_reason;  ///< of the first run that was rejected or failed; empty: none was
 };
 
-/// Runs what the journal of `out` lacks, and then writes `out`, its rows in the grid's order. Errors: those
-/// of the journal and of the output; io, a worker cannot be started; interrupted, with the journal left to
-/// be continued.
+/// Runs what the journal of `out`, or the folder, lacks, and then writes `out`, its rows in the grid's order.
+/// Errors: those of journal, folder and output; io, a worker cannot be started; interrupted, with journal or
+/// folder left to be continued.
 Result<SweepCounts> run_sweep(const SweepPlan& plan, const InterruptGuard& interrupt);
 
-/// A worker: reads runs from standard input, writes rows to standard output, until the input ends. It ends
-/// with its parent. Error (usage): the grid is another than the parent's.
-Status serve_sweep(Grid grid);
+/// A worker: reads runs from standard input, writes rows to standard output, until the input ends, and keeps
+/// each run in the folder `runs` unless that is empty. It ends with its parent. Errors: usage, the grid is
+/// another than the parent's; those of the folder.
+Status serve_sweep(const Grid& grid, const std::string& runs);
 
 }  // namespace aspic::report

@@ -13,6 +13,7 @@
 #include "base/files.h"
 #include "base/printable.h"
 #include "report/csv.h"
+#include "run/sweep_figures.h"
 
 namespace aspic::report {
 namespace {
@@ -44,34 +45,29 @@ Status append(int descriptor, const std::string& path, std::string_view text) {
 std::string sweep_header(const Grid& grid) {
   std::vector<std::string> fields = {"run"};
   for (const Axis& axis : grid.axes) fields.push_back(axis.key);
-  for (const char* name : {"outcome", "reason", "steps", "time", "height", "lowest", "kinetic", "elastic",
-                           "gravitational", "total", "max_speed", "contact_time", "squash", "squash_time",
-                           "rest_time", "slide", "hash", "seconds"})
-    fields.emplace_back(name);
+  for (const char* name : {"outcome", "reason", "steps"}) fields.emplace_back(name);
+  for (const RunFigure& figure : figures_of({})) fields.emplace_back(figure.name);
+  for (const char* name : {"hash", "seconds"}) fields.emplace_back(name);
   return csv_row(fields);
 }
 
-std::string sweep_row(const Grid& grid, std::size_t index, const TrialResult& result) {
+RunRow row_of(const TrialResult& result) {
+  RunRow row = {result.outcome, result.reason, result.steps, {}, result.hash, result.solver, result.seconds};
+  if (result.summary) row.figures = figures_of(*result.summary);
+  return row;
+}
+
+std::string sweep_row(const Grid& grid, std::size_t index, const RunRow& row) {
   std::vector<std::string> fields = {fmt::format("{}", index)};
   for (std::string& value : grid.values(index)) fields.push_back(std::move(value));
-  fields.emplace_back(name_of(result.outcome));
-  fields.push_back(printable_line(result.reason));
-  if (const auto& s = result.summary) {
-    fields.push_back(fmt::format("{}", result.steps));
-    const Measures& m = s->end.measures;
-    for (const double value : {s->end.time, s->end.height, s->end.lowest, m.kinetic, m.elastic,
-                               m.gravitational, m.total(), m.max_speed})
-      fields.push_back(csv_number(value));
-    fields.push_back(optional_number(s->contact_time));
-    fields.push_back(csv_number(s->squash));
-    fields.push_back(csv_number(s->squash_time));
-    fields.push_back(optional_number(s->rest_time));
-    fields.push_back(csv_number(s->end.slide));
-    fields.push_back(result.hash);
-    fields.push_back(fmt::format("{:.3g}", result.seconds));
-  } else {
-    fields.insert(fields.end(), 16, "");
-  }
+  fields.emplace_back(name_of(row.outcome));
+  fields.push_back(printable_line(row.reason));
+  const bool began = !row.figures.empty();
+  fields.push_back(began ? fmt::format("{}", row.steps) : "");
+  for (const RunFigure& figure : began ? row.figures : figures_of({}))
+    fields.push_back(began ? optional_number(figure.value) : "");
+  fields.push_back(row.hash);
+  fields.push_back(began ? fmt::format("{:.3g}", row.seconds) : "");
   return csv_row(fields);
 }
 

@@ -1,21 +1,36 @@
 #pragma once
 // The rows of a sweep, and the file that keeps them while it runs.
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "aspic/sweep.h"
 #include "base/result.h"
 #include "report/grid.h"
 #include "report/trial.h"
 
 namespace aspic::report {
 
+/// A run as its row tells of it.
+struct RunRow {
+  Outcome outcome = Outcome::ok;
+  std::string reason;              ///< one line; empty: ok
+  std::uint64_t steps = 0;         ///< the last good one
+  std::vector<RunFigure> figures;  ///< in the order of columns; empty: it never began
+  std::string hash;                ///< of the last good state
+  std::string solver;              ///< Backend::variant()
+  double seconds = 0.0;            ///< that its steps took
+};
+RunRow row_of(const TrialResult& result);
+
 /// The header line with its line end: run, the keys, the figures, and last the seconds, the one column that
 /// is not the same each time.
 std::string sweep_header(const Grid& grid);
 /// The row of a run with its line end.
-std::string sweep_row(const Grid& grid, std::size_t index, const TrialResult& result);
+std::string sweep_row(const Grid& grid, std::size_t index, const RunRow& row);
 
 /// Finished rows of a sweep that is not complete, in FILE.partial: a line that says whose they are, then rows
 /// in the order of finishing. A row is appended by one write; an incomplete one, left by a kill, is dropped.

@@ -40,6 +40,7 @@ Result<TrialResult> run_trial(SharedModel shared_model, const TrialOptions& opti
   const std::uint64_t stride = sample_stride(h, options.interval);
 
   TrialResult result;
+  result.solver = backend->variant();
   Course course(model);
   std::uint64_t step = 0;
   std::optional<Divergence> divergence;

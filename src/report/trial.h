@@ -11,6 +11,7 @@
 #include "aspic/scene.h"
 #include "run/backends.h"
 #include "run/run_length.h"
+#include "run/sweep_figures.h"
 
 namespace aspic::report {
 
@@ -22,9 +23,6 @@ enum class Outcome {
 };
 std::string_view name_of(Outcome outcome);
 
-/// Simulated time between the samples that figures of a course are taken from [s].
-inline constexpr double sample_interval = 1.0 / 60.0;
-
 struct TrialResult {
   Outcome outcome = Outcome::ok;
   std::string reason;                    ///< one line; empty: ok
@@ -33,6 +31,7 @@ struct TrialResult {
   std::vector<CourseSample> samples;
   std::vector<State> pictures;  ///< of `picture_times`
   std::string hash;             ///< of the last good state
+  std::string solver;           ///< Backend::variant(); empty: it never began
   double seconds = 0.0;         ///< that its steps took, samples not counted
   double thread_seconds = 0.0;  ///< processor time that the calling thread spent on them
 };

@@ -193,9 +193,9 @@ std::string only_those_with(const Ability& ability) {
                      names.size() == 1 ? "s" : "", ability.object);
 }
 
-std::string variant_of(const BackendRow& row, std::string_view force_path, Precision precision,
+std::string variant_of(std::string_view name_of_row, std::string_view force_path, Precision precision,
                        Arithmetic arithmetic) {
-  std::string name(row.name);
+  std::string name(name_of_row);
   if (!force_path.empty()) name += fmt::format(":{}", force_path);
   if (precision == Precision::double_) name += ":double";
   if (arithmetic == Arithmetic::fast) name += ":fast";
@@ -246,7 +246,7 @@ gl::Context* context_of(const Backend& backend) {
 }
 
 std::string Backend::variant() const {
-  return variant_of(*row, force_path, solver->precision(), arithmetic);
+  return variant_of(row->name, force_path, solver->precision(), arithmetic);
 }
 
 Result<std::filesystem::path> shader_directory() {
@@ -314,6 +314,12 @@ BackendChoice choice_for(const BackendRow* row, const BackendChoice& asked) {
   if (!row->fast) choice.arithmetic = Arithmetic::exact;
   if (!row->threaded) choice.threads = 0;
   return choice;
+}
+
+std::string words_of(const BackendChoice& choice) {
+  return variant_of(choice.row ? choice.row->name : "auto",
+                    choice.force_path == ForcePath::automatic ? "" : name_of(choice.force_path),
+                    choice.precision, choice.arithmetic);
 }
 
 Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& asked) {
@@ -391,7 +397,7 @@ std::vector<BackendBytes> bytes_by_backend(const Model& model) {
     for (const Precision precision : row.precisions) {
       const auto add = [&](const ForcePathRow* path) {
         const BackendChoice choice = {&row, precision, path ? path->path : ForcePath::automatic};
-        result.push_back({variant_of(row, path ? path->name : "", precision, Arithmetic::exact),
+        result.push_back({variant_of(row.name, path ? path->name : "", precision, Arithmetic::exact),
                           row.bytes(model, choice)});
       };
       if (row.force_paths().empty()) add(nullptr);

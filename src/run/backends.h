@@ -68,6 +68,9 @@ Result<Arithmetic> parse_arithmetic(std::string_view word);
 /// What the row has of `asked`, with this row; all of it for auto (null).
 BackendChoice choice_for(const BackendRow* row, const BackendChoice& asked);
 
+/// A choice but for its threads as parse_backend() takes it: "auto", "gpu:gather", "reference:double".
+std::string words_of(const BackendChoice& choice);
+
 /// Finds choices that no machine could satisfy, before any work: a precision, a force path, an arithmetic or
 /// a number of threads that the backend does not have (usage); what is not built yet (scene_rejected).
 Status check_choice(const BackendChoice& choice);

@@ -1,9 +1,9 @@
 #pragma once
 // How far a run goes.
 #include <cstdint>
-#include <optional>
 
 #include "aspic/settings.h"
+#include "aspic/sweep.h"
 #include "base/result.h"
 
 namespace aspic {
@@ -11,12 +11,6 @@ namespace aspic {
 /// Largest number of steps: beyond 2⁵³ time, which is step·h in double precision, no longer tells steps
 /// apart.
 inline constexpr std::uint64_t most_steps = std::uint64_t{1} << 53;
-
-/// How far a run goes, counted from the scene's start, also when resumed.
-struct RunLength {
-  std::optional<std::uint64_t> steps;
-  std::optional<double> duration;  ///< [s], ≥ 0; rounded to the nearest whole number of steps
-};
 
 /// Steps of a run of this length: as asked for, else the scene's duration, rounded to the nearest whole
 /// step. Error (usage): more steps than can be counted.

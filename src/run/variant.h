@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "aspic/scene.h"
+#include "aspic/sweep.h"
 #include "base/result.h"
 #include "run/backends.h"
 
@@ -12,13 +13,6 @@ namespace aspic {
 
 /// The key of a difference that names a backend, with its options: "gpu:per-spring".
 inline constexpr std::string_view backend_key = "backend";
-
-/// A key with its value.
-struct Difference {
-  std::string key;    ///< a short name (scene/short_keys.h), a path of --set, or backend_key
-  std::string value;  ///< as --set or --backend takes it
-  friend bool operator==(const Difference&, const Difference&) = default;
-};
 
 /// A run's scene and backend.
 struct Variant {

@@ -176,6 +176,67 @@ TEST(Sweep, CtrlCKeepsTheRowsThatAreThere) {
   EXPECT_THAT(test::lines(content(out + ".partial")), SizeIs(2));
 }
 
+std::vector<std::filesystem::path> files_in(const std::string& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+TEST(Sweep, RunsInAFolderAreMadeOnce) {
+  const test::TemporaryDirectory dir;
+  const std::string folder = dir.file("deep/runs");
+  ASSERT_EQ(aspic(sweep(dir.file("whole.csv"))).exit_code, 0);
+  // Half of them, and one that another program left half-written.
+  const auto part = aspic(sweep(dir.file("part.csv"), {"--runs", folder, "--part", "1/2", "--json"}));
+  ASSERT_EQ(part.exit_code, 0) << part.err;
+  EXPECT_EQ(json_member(part.out, "resumed"), "0");
+  EXPECT_FALSE(std::filesystem::exists(dir.file("part.csv.partial")));
+  const auto files = files_in(folder + "/runs");
+  ASSERT_THAT(files, SizeIs(6));
+  ASSERT_THAT(files_in(folder + "/scenes"), SizeIs(1));
+  EXPECT_THAT(content(files_in(folder + "/scenes")[0]), HasSubstr("particles-per-edge = 4"));
+  for (const auto& file : files) {
+    ASSERT_TRUE(test::is_json(content(file))) << file;
+    EXPECT_EQ(json_member(content(file), "key"), file.stem().string());
+  }
+  std::ofstream(files[0]) << content(files[0]).substr(0, 200);
+  std::ofstream(files[1]) << content(files[2]);
+
+  Words words = sweep(dir.file("s.csv"), {"--runs", folder, "--json"});
+  const auto resumed = aspic(words);
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(json_member(resumed.out, "resumed"), "4");
+  EXPECT_THAT(files_in(folder + "/runs"), SizeIs(12));
+  EXPECT_EQ(without_seconds(dir.file("s.csv")), without_seconds(dir.file("whole.csv")));
+  // A table of what is there, seconds too; and a run that another grid has in common with this one.
+  words[words.size() - 4] = dir.file("again.csv");
+  ASSERT_EQ(aspic(words).exit_code, 0);
+  EXPECT_EQ(content(dir.file("again.csv")), content(dir.file("s.csv")));
+  const auto other =
+      aspic({"sweep", "cube-plane", "--backend", "cpu", "--set", "cube[0].particles-per-edge=4", "--set",
+             "view.colour=strain", "--vary", "integrator=midpoint", "--vary", "k=8000.0,9000", "--vary",
+             "h=1e-3", "--duration", "1", "--runs", folder, "--json"});
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_EQ(json_member(other.out, "resumed"), "1");
+}
+
+TEST(Sweep, AFullDiskFailsRunsAndNotTheOthers) {
+  const test::TemporaryDirectory dir;
+  test::ProcessOptions options;
+  options.file_size_limit = 300;
+  const Words words = {"sweep",  "cube-plane",    "--steps", "2",
+                       "--vary", "mu=0.1,0.2",    "--set",   "cube[0].particles-per-edge=3",
+                       "--runs", dir.file("runs")};
+  ASSERT_EQ(aspic(words).exit_code, 0);
+  for (const auto& file : files_in(dir.file("runs/runs"))) std::filesystem::remove(file);
+  const auto full = aspic(words, options);
+  EXPECT_EQ(full.exit_code, 0) << full.err;
+  EXPECT_THAT(full.out, HasSubstr("0 ok, 0 diverged, 0 rejected, 2 failed"));
+  EXPECT_THAT(full.err, HasSubstr("Cannot write"));
+  EXPECT_TRUE(files_in(dir.file("runs/runs")).empty());
+}
+
 TEST(Sweep, RejectedValuesAreRowsToo) {
   const test::TemporaryDirectory dir;
   const auto done = aspic({"sweep", "cube-plane", "--backend", "cpu", "--vary",

@@ -107,6 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{
             {"sweep", "cube-plane", "--vary", "h=1", "--out", "x.csv", "--part", "3/2"}, 2, "1 <= i <= n"},
         Failure{{"sweep", "cube-plane", "--vary", "h", "--out", "x.csv"}, 2, "its = is missing"},
+        Failure{{"sweep", "cube-plane", "--vary", "h=0.001"}, 2, "--runs DIR"},
+        Failure{{"sweep", "cube-plane", "--vary", "h=0.001", "--runs", "/proc/x"}, 6, "/proc/x"},
         Failure{{"sweep", "cube-plane", "--vary", "h=1:2", "--out", "x.csv"}, 2, "the count is missing"},
         Failure{{"sweep", "cube-plane", "--vary", "h=1:2:0", "--out", "x.csv"}, 2, "the count is from 1"},
         Failure{{"sweep", "cube-plane", "--vary", "h=0.001", "--out", "k.txt"}, 2, "k.txt must end in .csv"},

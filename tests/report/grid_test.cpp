@@ -47,17 +47,17 @@ TEST(Grid, LastAxisVariesFastest) {
   EXPECT_THAT(grid->values(0), ElementsAre("0.001", "1"));
   EXPECT_THAT(grid->values(1), ElementsAre("0.001", "2"));
   EXPECT_THAT(grid->values(5), ElementsAre("0.002", "3"));
-  const auto run = grid_run(*grid, 5);
-  ASSERT_TRUE(run.ok());
-  EXPECT_EQ(run->scene.model.simulation.timestep, 0.002);
-  EXPECT_EQ(run->scene.model.cubes[0].bending.stiffness, 3.0);
+  const SweepRun run = grid_run(*grid, 5);
+  ASSERT_FALSE(run.error);
+  EXPECT_EQ(run.scene.model.simulation.timestep, 0.002);
+  EXPECT_EQ(run.scene.model.cubes[0].bending.stiffness, 3.0);
 }
 
 TEST(Grid, VariesBackends) {
   const auto grid = make_grid(scene(), {}, {}, {"backend=cpu,reference:double"});
   ASSERT_TRUE(grid.ok());
-  EXPECT_EQ(grid_run(*grid, 0)->backend.row->name, "cpu");
-  EXPECT_EQ(grid_run(*grid, 1)->backend.precision, Precision::double_);
+  EXPECT_EQ(grid_run(*grid, 0).backend.row->name, "cpu");
+  EXPECT_EQ(grid_run(*grid, 1).backend.precision, Precision::double_);
 }
 
 TEST(Grid, IdentityTellsGridsApart) {

@@ -162,8 +162,9 @@ TEST(PublicHeaders, AreFewAndIncludeTheStandardLibraryAndEachOther) {
     names.insert(entry.path().filename().string());
     EXPECT_THAT(not_public(text), ::testing::IsEmpty()) << entry.path();
   }
-  // Room for what every front end says of an error and for the threads of every class; 115 are batch.h.
-  EXPECT_LE(lines, 1750u) << "a user reads them all";
+  // Room for what every front end says of an error and for the threads of every class; 115 are batch.h, 90
+  // sweep.h.
+  EXPECT_LE(lines, 1850u) << "a user reads them all";
   names.insert("version.h");  // generated
   const std::string all = contents(root / "include/aspic/aspic.h");
   names.erase("aspic.h");
