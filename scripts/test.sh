@@ -24,7 +24,7 @@ full      core, and by label:
   window       the rest of the window's tests
   report       the report's page in a browser, and on paper
   independent  the independent implementation of the physics
-  packages     the Python package from source distribution to wheel to a fresh environment
+  packages     the Python package from source distribution to wheel to a fresh environment; its sweeps on Dask and submitit
   attack       damaged files, limits, faults and kills (scripts/attack.sh)
           and without a label:
   sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers

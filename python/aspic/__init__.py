@@ -29,6 +29,8 @@ from ._reading import Measures, Springs
 from ._scene import BuiltinScene, Parameter, Scene, load, parameters, scenes
 from ._simulation import Simulation, resume
 from ._state import Difference, QuantityDifference, State, compare
+from ._sweep import sweep
+from ._table import Table, collect
 from ._trajectory import BatchTrajectory, Energy, Trajectory
 
 __version__: str = _aspic.version
@@ -58,11 +60,14 @@ __all__ = [
     "Simulation",
     "Springs",
     "State",
+    "Table",
     "Trajectory",
     "UsageError",
+    "collect",
     "compare",
     "load",
     "parameters",
     "resume",
     "scenes",
+    "sweep",
 ]

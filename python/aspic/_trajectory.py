@@ -14,8 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ._reading import Measures
-    from ._simulation import Simulation
+    from ._reading import Measures, Readable
 
 __all__ = ["BatchTrajectory", "Energy", "Trajectory"]
 
@@ -123,6 +122,12 @@ class Trajectory(Series):
         """
         self._savez(path, overwrite, steps=self.steps, time=self.time)
 
+    def _write(self, file: Any) -> None:
+        """Writes it as ``save()`` does into an open file."""
+        import numpy as np
+
+        np.savez_compressed(file, steps=self.steps, time=self.time, **self._flat())
+
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Trajectory:
         """Reads what ``save()`` wrote. Raises what ``numpy.load()`` raises."""
@@ -193,7 +198,7 @@ _OF_BODIES = ("centre-of-mass", "momentum")
 class _Sample:
     """What is read of a state, at most once."""
 
-    def __init__(self, simulation: Simulation):
+    def __init__(self, simulation: Readable):
         self._simulation = simulation
 
     @functools.cached_property
@@ -216,7 +221,7 @@ class _Sample:
 class Recorder:
     """Takes samples of a simulation. Raises UsageError for a name that cannot be recorded."""
 
-    def __init__(self, simulation: Simulation, names: Sequence[str]):
+    def __init__(self, simulation: Readable, names: Sequence[str]):
         if isinstance(names, str):
             names = [names]
         self._simulation = simulation

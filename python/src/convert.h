@@ -1,6 +1,7 @@
 #pragma once
 // What all bindings share: the library's errors as exceptions, vectors as arrays of numpy.
 #include <aspic/error.h>
+#include <aspic/parameters.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
@@ -59,9 +60,13 @@ Array<T> as_array(std::vector<T> numbers, std::initializer_list<std::size_t> sha
   return Array<T>(held->data(), shape, owner);
 }
 
+/// A parameter's value: a number, a word, a tuple or a list.
+nb::object as_object(const ParameterValue& value);
+
 void bind_scene(nb::module_& module);
 void bind_state(nb::module_& module);
 void bind_simulation(nb::module_& module);
 void bind_batch(nb::module_& module);
+void bind_sweep(nb::module_& module);
 
 }  // namespace aspic::python

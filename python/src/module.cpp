@@ -30,4 +30,5 @@ NB_MODULE(_aspic, module) {
   bind_state(module);
   bind_simulation(module);
   bind_batch(module);
+  bind_sweep(module);
 }

@@ -18,9 +18,6 @@
 #include "convert.h"
 
 namespace aspic::python {
-namespace {
-
-using Words = std::vector<std::string>;
 
 nb::object as_object(const ParameterValue& value) {
   return std::visit(
@@ -40,6 +37,10 @@ nb::object as_object(const ParameterValue& value) {
       },
       value);
 }
+
+namespace {
+
+using Words = std::vector<std::string>;
 
 using Text = std::tuple<std::string, std::string, std::string>;
 

@@ -18,6 +18,8 @@ void look_for_signals() {
   if (PyErr_CheckSignals() != 0) throw nb::python_error();
 }
 
+}  // namespace
+
 BackendChoice choice_of(const std::string& words, std::optional<bool> doubles, unsigned threads) {
   BackendChoice asked;
   if (doubles) asked.precision = *doubles ? Precision::double_ : Precision::single;
@@ -28,8 +30,6 @@ BackendChoice choice_of(const std::string& words, std::optional<bool> doubles, u
   if (choice.row != nullptr && threads > 0) choice.threads = threads;
   return choice;
 }
-
-}  // namespace
 
 void Chunk::took(std::uint64_t steps, double seconds) {
   if (steps < size_) return;

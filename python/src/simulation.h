@@ -19,6 +19,9 @@
 
 namespace aspic::python {
 
+/// A backend's words with options. Error (usage).
+BackendChoice choice_of(const std::string& words, std::optional<bool> doubles, unsigned threads);
+
 /// How a film is made.
 struct FilmWish {
   std::string path;  ///< of a video where it has an ending, else a directory of pictures

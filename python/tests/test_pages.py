@@ -1,5 +1,6 @@
 """The blocks of Python in the documentation run from top to bottom, and so do the examples."""
 
+import importlib.util
 import os
 import pathlib
 import re
@@ -9,6 +10,9 @@ import sys
 import aspic
 import pytest
 from conftest import needs_pictures, root
+
+# What the core tests do without; test_sweep_engines.py is where they are.
+ENGINES = ("dask", "submitit")
 
 
 def blocks(page: str) -> list[tuple[int, str]]:
@@ -22,7 +26,7 @@ def blocks(page: str) -> list[tuple[int, str]]:
     return found
 
 
-PAGES = ["docs/python.md", "README.md"]
+PAGES = ["docs/python.md", "docs/sweeps.md", "README.md"]
 
 
 def test_no_page_with_python_is_forgotten() -> None:
@@ -36,8 +40,11 @@ def test_no_page_with_python_is_forgotten() -> None:
 @pytest.mark.parametrize("page", PAGES)
 def test_every_block_of_a_page_runs(page: str) -> None:
     needs_pictures()
-    names: dict[str, object] = {}
+    names: dict[str, object] = {"__name__": "__main__"}
     for line, block in blocks(page):
+        wanted = [engine for engine in ENGINES if re.search(rf"(import|from) {engine}\b", block)]
+        if not all(importlib.util.find_spec(engine) for engine in wanted):
+            continue
         exec(compile("\n" * line + block, str(root / page), "exec"), names)
 
 
@@ -58,6 +65,10 @@ EXAMPLES = {
         r"explicit-euler +[-\d.e]+ .*\n(.*\n)+implicit-euler",
     ),
     "stiffness.py": (["--particles", "3", "--stiffness", "1000", "4000"], r"k = +4000 N/m: down to \d"),
+    "dask_sweep.py": (
+        ["--runs", "2", "--seconds", "0.1", "--out", "runs"],
+        r"4 of 4 runs\nfarthest: \d.\d+ m .*\nhash [0-9a-f]{16}",
+    ),
     "throw.py": ([], r"cpu ([0-9a-f]{16}), replayed on reference \1\n"),
 }
 
@@ -67,9 +78,11 @@ def test_examples_run(name: str) -> None:
     path = root / "examples/python" / name
     if not path.exists():
         pytest.skip("the examples are not here")
+    if name.startswith("dask"):
+        pytest.importorskip("distributed")
     words, says = EXAMPLES[name]
     # A process that spawn starts finds the package as this one did.
-    here = str(pathlib.Path(aspic.__file__).parents[1])
+    here = os.pathsep.join([str(pathlib.Path(aspic.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
     done = subprocess.run(
         [sys.executable, path, *words], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": here}
     )

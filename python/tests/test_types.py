@@ -32,6 +32,8 @@ def test_the_package_and_a_program_that_uses_it_are_typed(tmp_path: pathlib.Path
         'batch = aspic.Batch([sim.scene, "cube-plane"], threads=1)\n'
         "reveal_type(batch[0].positions)\nreveal_type(batch.step(3) + 1)\nreveal_type(batch.run(0.1).time)\n"
         "batch.reset(batch.diverged > 0)\n"
+        'table = aspic.sweep(sim.scene, {"k": [1.0]}, {"end": lambda run: run.time[-1]}, steps=1)\n'
+        'reveal_type(table["end"])\naspic.sweep(sim.scene, 3)  # type: ignore[arg-type]\n'
         'sim.step("3")  # type: ignore[arg-type]\n'
         "sim.stepp()  # type: ignore[attr-defined]\n"
     )
@@ -58,7 +60,8 @@ def test_the_stub_has_what_the_extension_module_has() -> None:
     module = sys.modules["aspic._aspic"]
     assert names(stub.body) == {name for name in dir(module) if not name.startswith("_")}
     classes = [part for part in stub.body if isinstance(part, ast.ClassDef)]
-    assert {part.name for part in classes} == {"Batch", "InputLog", "Instance", "Scene", "Simulation", "State"}
+    present = {"Batch", "InputLog", "Instance", "RunFigures", "Scene", "Simulation", "State"}
+    assert {part.name for part in classes} == present
     for part in classes:
         members = {name for name in vars(getattr(module, part.name)) if not name.startswith("_")}
         assert names(part.body) == members, part.name

@@ -52,12 +52,18 @@ class Worker {
     const std::lock_guard lock(mutex_);
     if (ended_) return std::optional<std::string>();
     const ChildProcess::End end = child_->finish();
+    child_.reset();
     RunRow lost;
     lost.outcome = Outcome::failed;
     lost.reason = end.signal != 0 ? fmt::format("signal {} ended the process", end.signal)
                                   : fmt::format("the process ended with exit code {}", end.exit_code);
-    child_.reset();
-    if (folder_) ASPIC_CHECK(folder_->write(grid_run(grid, index), lost));
+    if (folder_) {
+      const SweepRun run = grid_run(grid, index);
+      // It may have been kept before its process ended.
+      if (const auto kept = folder_->read(run)) return std::optional(sweep_row(grid, index, *kept));
+      // Where that fails it is as if it had not been run, which is what the next sweep takes it for anyway.
+      (void)folder_->write(run, lost);
+    }
     return std::optional(sweep_row(grid, index, lost));
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A sweep: the runs of a grid in separate processes, their rows in a file, or each in one of its own.
+// A sweep: the runs of a grid in separate processes, their rows in one file, or each in a separate one.
 #include <cstddef>
 #include <string>
 #include <vector>

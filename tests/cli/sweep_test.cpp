@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -20,7 +22,7 @@ using testing::HasSubstr;
 using testing::SizeIs;
 using Words = std::vector<std::string>;
 
-std::string content(const std::string& path) {
+std::string content(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
@@ -178,7 +180,8 @@ TEST(Sweep, CtrlCKeepsTheRowsThatAreThere) {
 
 std::vector<std::filesystem::path> files_in(const std::string& folder) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() != ".tmp") files.push_back(entry.path());  // not complete yet
   std::ranges::sort(files);
   return files;
 }
@@ -221,6 +224,57 @@ TEST(Sweep, RunsInAFolderAreMadeOnce) {
   EXPECT_EQ(json_member(other.out, "resumed"), "1");
 }
 
+/// The process that makes runs for a sweep whose arguments name `path` and has computed for half a second;
+/// 0: there is none.
+pid_t busy_worker(const std::string& path) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string words = content(entry.path() / "cmdline");
+    if (words.find(path) == std::string::npos || words.find("--worker") == std::string::npos) continue;
+    const std::string stat = content(entry.path() / "stat");  // proc(5): after the name, fields 3 and on
+    std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));
+    std::string skipped;
+    for (int field = 3; field < 14; ++field) fields >> skipped;
+    long user = 0, system = 0;
+    if (fields >> user >> system && user + system > ::sysconf(_SC_CLK_TCK) / 2)
+      return static_cast<pid_t>(std::stoi(entry.path().filename()));
+  }
+  return 0;
+}
+
+TEST(Sweep, ARunThatIsLostIsARowAndTriedAgain) {
+  const test::TemporaryDirectory dir;
+  const std::string folder = dir.file("runs");
+  const Words words = {
+      "sweep",  "cube-plane",     "--backend", "cpu", "--vary", "simulation.duration=0.1,1000000",
+      "--runs", dir.file("runs"), "--jobs",    "1"};
+  test::Process running(words);
+  // The first run takes a moment, the second one would take days.
+  pid_t worker = 0;
+  while ((worker = busy_worker(folder)) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ASSERT_EQ(::kill(worker, SIGKILL), 0);
+  const auto ended = running.wait();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("1 ok, 0 diverged, 0 rejected, 1 failed"));
+  EXPECT_THAT(ended.err, HasSubstr("signal 9 ended the process"));
+  const auto files = files_in(folder + "/runs");
+  ASSERT_THAT(files, SizeIs(2));
+  const auto outcome = [](const auto& file) { return json_member(content(file), "outcome"); };
+  const bool second = outcome(files[0]) == "ok";
+  EXPECT_EQ(outcome(files[second ? 0 : 1]), "ok");
+  EXPECT_EQ(outcome(files[second ? 1 : 0]), "failed");
+
+  // What failed is no run that is there.
+  const Words one = {"sweep",  "cube-plane", "--backend", "cpu", "--vary", "simulation.duration=0.1",
+                     "--runs", folder,       "--json"};
+  EXPECT_EQ(json_member(aspic(one).out, "resumed"), "1");
+  std::string text = content(files[second ? 0 : 1]);
+  text.replace(text.find("\"ok\""), 4, "\"failed\"");
+  std::ofstream(files[second ? 0 : 1]) << text;
+  const auto again = aspic(one);
+  EXPECT_EQ(json_member(again.out, "resumed"), "0");
+  EXPECT_EQ(json_member(again.out, "ok"), "1");
+}
+
 TEST(Sweep, AFullDiskFailsRunsAndNotTheOthers) {
   const test::TemporaryDirectory dir;
   test::ProcessOptions options;
@@ -234,7 +288,7 @@ TEST(Sweep, AFullDiskFailsRunsAndNotTheOthers) {
   EXPECT_EQ(full.exit_code, 0) << full.err;
   EXPECT_THAT(full.out, HasSubstr("0 ok, 0 diverged, 0 rejected, 2 failed"));
   EXPECT_THAT(full.err, HasSubstr("Cannot write"));
-  EXPECT_TRUE(files_in(dir.file("runs/runs")).empty());
+  EXPECT_TRUE(std::filesystem::is_empty(dir.file("runs/runs")));
 }
 
 TEST(Sweep, RejectedValuesAreRowsToo) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "aspic/analysis.h"
 #include "aspic/model.h"
 #include "aspic/sweep.h"
 #include "run/backends.h"

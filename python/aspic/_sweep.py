@@ -1,0 +1,343 @@
+"""Sweeps: a scene with many values, a run for each."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Literal
+
+from . import _aspic, _executors
+from ._errors import UsageError, error_of
+from ._folder import Folder, Row
+from ._runs import (
+    SMALL,
+    Differences,
+    Order,
+    Result,
+    Study,
+    empty_row,
+    is_made,
+    make_runs,
+    order,
+    rejected_row,
+    scene_of,
+    smallest,
+)
+from ._scene import Scene, _toml, load
+from ._simulation import Simulation
+from ._table import AFTER, BEFORE, Table
+from ._trajectory import Energy, Recorder, Trajectory
+
+__all__ = ["sweep"]
+
+Metric = Callable[[Trajectory], Any]
+Vary = Mapping[str, Iterable[Any]] | Iterable[Mapping[str, Any]]
+
+# Short names take numbers and words as --vary does.
+_SHORT = ("integrator", "h", "k", "c", "n", "e", "mu", "backend")
+
+
+def sweep(
+    scene: Scene | str | os.PathLike[str],
+    vary: Vary,
+    metrics: Mapping[str, Metric] | None = None,
+    out: str | os.PathLike[str] | None = None,
+    executor: Any = None,
+    *,
+    backend: str = "auto",
+    precision: Literal["single", "double", None] = None,
+    duration: float | None = None,
+    steps: int | None = None,
+    record: str | Sequence[str] | None = None,
+    every: float | None = None,
+    trajectories: bool = False,
+    batch: int | None = None,
+    threads: int = 0,
+    workers: int = 0,
+    retries: int = 3,
+    submit: Mapping[str, Any] | None = None,
+    progress: Callable[[int, int], Any] | None = None,
+) -> Table:
+    """Runs a scene with every combination of values, and returns a table with a row for each run.
+
+    What is simulated:
+
+    ``scene``: one, or what ``aspic.load()`` takes. ``vary``: keys, each with its values, of which all combinations are
+    made, the last key varying fastest; or dicts, a run each. A key is a path of ``--set``, ``"backend"``, or a short
+    name of ``aspic sweep``: ``integrator``, ``h``, ``k``, ``c``, ``n``, ``e``, ``mu``. ``backend``, ``precision``: as
+    of ``Simulation``; ``duration`` [s] or ``steps``: of each run, neither: the scene's duration.
+
+    What is kept: figures of each run's course (docs/report.md), its hash, and
+
+    ``metrics``: functions by the names of their columns. Each gets the run's ``Trajectory`` and returns a number, a
+    word, True, False or None; it is called where the run is made. ``record``, ``every``: as of ``Simulation.run()``;
+    None: what the metrics ask for, found by trying them on the scene's first step. ``trajectories``: keeps the records.
+    ``out``: the folder of runs, a file each; a run that is there is not made again, whoever made it: another sweep,
+    another machine, ``aspic sweep --runs``. None: nothing is kept.
+
+    Where:
+
+    ``executor``: None, this process; ``"processes"``, started by spawn; a ``distributed.Client`` or the address of a
+    Dask scheduler, ``"tcp://…"``; a submitit executor, for Slurm; any executor like those of ``concurrent.futures``.
+    ``workers``: of ``"processes"``; 0: a process for each processor. ``batch``: most runs that are sent and, if they
+    are small, stepped together; None: 16 to 64. ``threads``: of each task; 0: as many as there are processors here, one
+    elsewhere. ``retries``: how often a task is repeated whose process died; ``submit``: keywords of Dask's
+    ``Client.submit()``, such as ``resources``. ``progress``: called with the numbers of runs that are made and wanted.
+
+    A run that diverges, is rejected, or fails is a row with its ``outcome`` and ``reason``; runs that failed are made
+    again by the next call. Ctrl-C loses what is under way. Raises UsageError for arguments that are wrong, also for
+    what a metric asks for and cannot be recorded, and SceneError for a key whose every value is rejected; FileError
+    where the folder cannot be made.
+    """
+    if not isinstance(scene, Scene):
+        scene = load(scene)
+    if (steps is not None and duration is not None) or (steps or 0) < 0 or not (duration or 0) >= 0:
+        raise UsageError("a run is as long as either duration or steps say, 0 or more, not both")
+    if every is not None and not every > 0:
+        raise UsageError(f"an interval of samples is more than 0 s, not {every}")
+    if batch is not None and batch < 1:
+        raise UsageError(f"at least one run is sent at once, not {batch}")
+    if precision not in (None, "single", "double"):
+        raise UsageError(f"a precision is 'single' or 'double', not {precision!r}")
+    if trajectories and out is None:
+        raise UsageError("trajectories are kept in a folder: out=…")
+    metrics = dict(metrics or {})
+    points = _points(vary)
+    keys = list(dict.fromkeys(key for point in points for key, _ in point))
+    _check_names(keys, metrics)
+    if isinstance(record, str):
+        record = [record]
+    recorded = tuple(_asked(scene, metrics) if record is None else record)
+    if record is not None:
+        Recorder(Simulation(scene, "reference"), recorded)  # raises for names that cannot be recorded
+    if trajectories and not recorded:
+        raise UsageError("trajectories have what record=… names")
+    here = executor is None
+    study = Study(
+        scene=scene.toml,
+        name=scene.name,
+        backend=backend,
+        doubles=None if precision is None else precision == "double",
+        steps=steps,
+        duration=duration,
+        record=recorded,
+        every=every,
+        metrics=metrics,
+        recipes={name: _recipe(metric, recorded, every) for name, metric in metrics.items()},
+        trajectories=trajectories,
+        batch=batch or 64,
+        threads=threads or (0 if here else 1),
+        folder=None if out is None else os.path.abspath(out),
+        version=_aspic.version,
+    )
+    perform = _executors.submitter(executor, workers, retries, submit or {})
+    rows = _Rows(study, points, progress)
+    tasks = rows.tasks(batch, _executors.workers_of(executor, workers))
+    ended = perform(make_runs, study, tasks)
+    try:
+        for task, results in ended:
+            rows.take(task, results)
+    finally:
+        # At once, so that Ctrl-C ends what is under way.
+        ended.close()  # type: ignore[attr-defined]
+    return Table(rows.in_order(), study.folder, keys)
+
+
+class _Rows:
+    """The rows of a sweep: those that are there, and those that are still to come."""
+
+    def __init__(self, study: Study, points: list[Differences], progress: Callable[[int, int], Any] | None):
+        self._study, self._progress = study, progress
+        self._folder = None if study.folder is None else Folder(study.folder)
+        self._scene = scene_of(study)
+        there: set[str] = set()
+        if self._folder:
+            self._folder.make(self._scene)
+            there = self._folder.keys()
+        self._keys: list[str] = []
+        self._rows: dict[str, Row] = {}
+        self._left: dict[str, tuple[Any, Differences]] = {}
+        """By key, what runs that may be made together have in common, and the run's differences."""
+        rejected: list[Order] = []
+        for point in points:
+            # A scene is some kilobytes: it is not kept.
+            one = order(study, self._scene, point)
+            self._keys.append(one.key)
+            if one.key in self._rows or one.key in self._left:
+                continue  # two points may be one run
+            if one.scene is None:
+                rejected.append(one)
+                continue
+            row = self._folder.read(one.key) if self._folder and one.key in there else None
+            if row is not None and is_made(study, row):
+                self._rows[one.key] = row
+            else:
+                small = one.particles <= SMALL
+                alike = (one.scene.timestep, one.steps, one.backend) if small else one.key
+                self._left[one.key] = (alike, point)
+        if rejected and not self._left and not self._rows:
+            # A key that is wrong, rather than some of its values.
+            assert rejected[0].error is not None
+            raise error_of(*rejected[0].error)
+        for one in rejected:
+            self._take(Result(rejected_row(study, one), False))
+        self._tell()
+
+    def tasks(self, batch: int | None, workers: int) -> list[Sequence[Differences]]:
+        """What is left, cut into tasks: small runs of one time step and length are in one."""
+        groups: dict[Any, list[Differences]] = {}
+        for alike, point in self._left.values():
+            groups.setdefault(alike, []).append(point)
+        size = batch or _size(len(self._left), workers)
+        return [group[i : i + size] for group in groups.values() for i in range(0, len(group), size)]
+
+    def take(self, task: Sequence[Differences], results: Any) -> None:
+        """The results of a task, or the exception in their place."""
+        if isinstance(results, BaseException):
+            results = [self._lost(order(self._study, self._scene, point), _why(results)) for point in task]
+        for result in results:
+            self._take(result)
+        self._tell()
+
+    def _lost(self, run: Order, reason: str) -> Result:
+        """A run of a task that ended with an exception; it may have been kept before."""
+        row = self._folder.read(run.key) if self._folder else None
+        if row is not None and is_made(self._study, row):
+            return Result(row, True)
+        return Result(empty_row(self._study, run, "failed", reason), False)
+
+    def in_order(self) -> list[Row]:
+        """Those of the points, in their order."""
+        return [self._rows[key] for key in self._keys]
+
+    def _take(self, result: Result) -> None:
+        row = result.row
+        if self._folder and not result.kept:
+            try:
+                self._folder.write(row, result.trajectory)
+            except OSError as error:
+                row = {**row, "outcome": "failed", "reason": f"its file cannot be written: {error.strerror}"}
+        self._rows[row["key"]] = row
+
+    def _tell(self) -> None:
+        if self._progress:
+            self._progress(len(self._rows), len(self._rows.keys() | self._left.keys()))
+
+
+def _why(error: BaseException) -> str:
+    """An exception in a line. One that tells of another by its trace: also that one."""
+    import re
+
+    lines = f"{type(error).__name__}: {error}".strip().split("\n")
+    named = [line for line in lines[1:] if re.match(r"[\w.]+(Error|Exception|Exit|Interrupt)\b", line)]
+    return " ".join([lines[0], *named[-1:]])
+
+
+def _size(runs: int, workers: int) -> int:
+    """Runs of a task: at least as many as share the lanes of vector registers, few enough for all workers."""
+    share = math.ceil(runs / (4 * workers)) if workers else 16
+    return min(64, max(16, 16 * math.ceil(share / 16)))
+
+
+def _points(vary: Vary) -> list[Differences]:
+    if isinstance(vary, Mapping):
+        for key, values in vary.items():
+            if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+                raise UsageError(f"{key!r} needs a list of values, not {values!r}")
+        columns = [[(key, _word(key, value)) for value in values] for key, values in vary.items()]
+        return list(itertools.product(*columns))
+    points = []
+    for point in vary:
+        if not isinstance(point, Mapping):
+            raise UsageError(f"vary is a dict of lists, or a list of dicts with a value for each key, not of {point!r}")
+        points.append(tuple((key, _word(key, value)) for key, value in point.items()))
+    return points
+
+
+def _word(key: Any, value: Any) -> str:
+    """A value as --vary takes it."""
+    if not isinstance(key, str) or "=" in key:
+        raise UsageError(f"a key of a sweep is a path such as 'cube[0].edge-length', or a short name, not {key!r}")
+    if key in _SHORT and isinstance(value, str):
+        return value
+    return _toml(value)
+
+
+def _check_names(keys: Sequence[str], metrics: Mapping[str, Metric]) -> None:
+    figures = [name for name, _ in _figures()]
+    for name, metric in metrics.items():
+        if not callable(metric):
+            raise UsageError(f"the metric {name!r} is a function of a trajectory, not {type(metric).__name__}")
+        if name in (*keys, *BEFORE, *AFTER, *figures):
+            raise UsageError(f"the table has a column {name!r} already: give the metric another name")
+
+
+def _figures() -> list[tuple[str, float | None]]:
+    figures = _aspic.RunFigures(smallest()._core)
+    figures.take(smallest()._core)
+    return figures.figures()
+
+
+class _Asked(Trajectory):
+    """Two steps of a scene, recorded as they are asked for."""
+
+    def __init__(self, scene: Scene):
+        import numpy as np
+
+        self._moments = [Simulation(scene, "reference"), Simulation(scene, "reference")]
+        self._moments[1]._core.advance(1)
+        super().__init__(np.array([0, 1]), np.array([0.0, self._moments[1].timestep]), {})
+
+    def __getitem__(self, name: str) -> Any:
+        import numpy as np
+
+        if name not in self._series:
+            values = []
+            for moment in self._moments:
+                recorder = Recorder(moment, [name])
+                recorder.take()
+                values.append(recorder.trajectory()[name])
+            if isinstance(values[0], Energy):
+                self._series[name] = Energy(*(np.concatenate(part) for part in zip(*values)))
+            else:
+                self._series[name] = np.concatenate(values)
+        return self._series[name]
+
+    def get(self, name: str, default: Any = None) -> Any:
+        return self[name]
+
+
+def _asked(scene: Scene, metrics: Mapping[str, Metric]) -> list[str]:
+    """What metrics ask a trajectory for. Raises UsageError for what cannot be recorded."""
+    if not metrics:
+        return []
+    import warnings
+
+    asked = _Asked(scene)
+    for metric in metrics.values():
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                metric(asked)
+        except UsageError:
+            raise
+        except Exception:
+            pass  # two samples may be too few for it
+    return list(asked)
+
+
+def _recipe(metric: Metric, record: Sequence[str], every: float | None) -> str:
+    """A hash of what a metric is computed by and from: another function has another one."""
+    import hashlib
+    import inspect
+    import marshal
+
+    try:
+        source = inspect.getsource(metric).encode()
+    except (OSError, TypeError):
+        code = getattr(metric, "__code__", None)
+        source = marshal.dumps(code) if code is not None else repr(type(metric)).encode()
+    text = source + repr((sorted(record), every)).encode()
+    return hashlib.sha256(text).hexdigest()[:16]
