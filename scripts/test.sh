@@ -25,6 +25,7 @@ full      core, and by label:
   report       the report's page in a browser, and on paper
   independent  the independent implementation of the physics
   packages     the Python package from source distribution to wheel to a fresh environment; its sweeps on Dask and submitit
+  exports      files for other programs, read by VTK, USD, trimesh, zarr and xarray from PyPI (600 MB)
   attack       damaged files, limits, faults and kills (scripts/attack.sh)
           and without a label:
   sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers

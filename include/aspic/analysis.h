@@ -11,6 +11,7 @@
 
 #include "aspic/error.h"
 #include "aspic/export.h"
+#include "aspic/inputs.h"
 #include "aspic/model.h"
 #include "aspic/state.h"
 
@@ -35,6 +36,20 @@ ASPIC_API std::optional<std::string_view> first_not_finite(const Measures& measu
 /// not move, so they have no part in kinetic energy, momentum and speed. Balls count once they are launched.
 /// The state must have the model's numbers of particles and balls.
 ASPIC_API Measures measure(const Model& model, const State& state);
+
+/// What a state means for its particles and springs, in double precision whatever the state's own. By
+/// particle:
+struct StateQuantities {
+  std::vector<double> speed;          ///< |v| [m/s]
+  std::vector<double> mean_strain;    ///< mean |L/r − 1| of its springs, as pictures show it; 0 without any
+  std::vector<Vec3> force;            ///< net, with contact [N]: zero at rest, and of pinned particles
+  std::vector<Vec3> contact_force;    ///< of terrain [N]; a bounce is an impulse, which no state holds
+  std::vector<std::uint8_t> contact;  ///< 1: it touches terrain; of pinned particles 0
+  std::vector<double> strain;         ///< L/r − 1 by spring, in the order of spring_facts(); 0 where r = 0
+  std::vector<double> tension;  ///< k(L − r) + c·dL/dt [N], positive where it pulls; 0 of a slack cord
+};
+/// `state` has the model's numbers of particles and balls; `inputs` are Solver::inputs().
+ASPIC_API StateQuantities quantities_of(const Model& model, const State& state, const Inputs& inputs = {});
 
 /// The largest differences in one quantity. With no difference all members are 0.
 struct QuantityDifference {

@@ -7,6 +7,7 @@
 
 #include "aspic/error.h"
 #include "aspic/export.h"
+#include "aspic/inputs.h"
 #include "aspic/model.h"
 #include "aspic/settings.h"
 #include "aspic/solver.h"
@@ -54,6 +55,7 @@ struct Sample {
   SolveStatistics solves = {};      ///< of the run so far; zeros unless the integrator is implicit-euler
   const RunFacts* facts = nullptr;  ///< null except within a sink that was told them
   const Divergence* divergence = nullptr;  ///< of the step after it, which ended the run; null: none
+  const Inputs* inputs = nullptr;  ///< those of the step after it (Solver::inputs()); null: there are none
 };
 
 /// Width and height of a picture [pixels].

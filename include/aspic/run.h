@@ -72,7 +72,7 @@ ASPIC_API Result<Backend> make_backend(const BackendChoice& choice, SharedModel 
 
 /// A file of states.
 struct StateOutput {
-  std::string option;                  ///< "state", "series" or "checkpoint"
+  std::string option;                  ///< "state", "series", "checkpoint" or "export"
   std::string path;                    ///< empty: none
   std::optional<std::uint64_t> every;  ///< steps, ≥ 1; absent: what the format has
 };

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Union
 
 from . import _aspic
 from ._errors import SceneError, UsageError, diverged
+from ._exports import OF_LIBRARY, ending_of
 from ._inputs import Replayable
 from ._scene import Scene, assignments, load
 from ._state import State, field_index
@@ -112,15 +113,63 @@ class Simulation(Replayable):
         interval of samples [s], the first at once, each at the step nearest to its time; None: the start and the end
         alone. ``record``: ``"energy"``, ``"momentum"``, ``"centre-of-mass"``, ``"positions"``, ``"velocities"``,
         ``"max-speed"``, ``"min-height"``, ``"hash"``, and of a body ``"cube[0].positions"``, ``"….velocities"``,
-        ``"….centre-of-mass"``, ``"….momentum"``. Raises UsageError for others; DivergedError as ``step()``, with what
-        was recorded as ``trajectory``.
+        ``"….centre-of-mass"``, ``"….momentum"``. Also ``"speed"``, ``"force"``, ``"contact-force"``, ``"contact"``,
+        ``"mean-strain"`` of particles, ``"strain"`` and ``"tension"`` of springs, ``"ball-positions"``,
+        ``"ball-velocities"``, ``"ball-angular-velocities"``; ``"motion"`` is all that exports hold. Raises UsageError
+        for others; DivergedError as ``step()``, with what was recorded as ``trajectory``.
         """
         count = self._steps_of(duration, steps)
-        if every is not None and not every > 0:
-            raise UsageError(f"an interval of samples is more than 0 s, not {every}")
+        _check_interval(every)
         recorder = Recorder(self, record)
+        found = self._sample(count, every, recorder.take)
+        if found:
+            error = diverged(found)
+            error.trajectory = recorder.trajectory()
+            raise error
+        return recorder.trajectory()
+
+    def export(
+        self,
+        path: Path,
+        duration: float | None = None,
+        *,
+        steps: int | None = None,
+        every: float = 0.02,
+        overwrite: bool = False,
+    ) -> None:
+        """Steps, and writes the motion for other programs on the way, as docs/exports.md says.
+
+        ``path``: .pvd (ParaView), .pc2 (Blender) or .npz (numpy), which take no memory for it, .zarr, or .usd, .usda,
+        .usdc by the package usd-core; ``duration``, ``steps``, ``every``: as ``run()``. Ctrl-C and a divergence leave
+        complete files so far. Raises UsageError, also for other endings; FileError or FileExistsError where a file
+        exists, unless ``overwrite``; DivergedError as ``step()``.
+        """
+        count = self._steps_of(duration, steps)
+        _check_interval(every)
+        ending = ending_of(path)
+        name = os.fspath(path)
+        found = None
+        if ending in OF_LIBRARY:
+            writer = _aspic.Export(self._core.scene, name, overwrite)
+            try:
+                found = self._sample(count, every, lambda: writer.add(self._core))
+            finally:
+                writer.finish()
+        else:
+            if os.path.lexists(name) and not overwrite:
+                raise FileExistsError(f"{name!r} exists and was not changed: pass overwrite=True")
+            recorder = Recorder(self, ["motion"])
+            try:
+                found = self._sample(count, every, recorder.take)
+            finally:
+                recorder.trajectory().export(path, overwrite)
+        if found:
+            raise diverged(found)
+
+    def _sample(self, count: int, every: float | None, take: Callable[[], None]) -> tuple[int, int, bool, str] | None:
+        """So many steps with samples, the first at once; what diverged."""
         start, h = self.steps, self.timestep
-        recorder.take()
+        take()
         # Not by adding up: the k-th sample is where it would be without the others.
         k = 0
         while (done := self.steps - start) < count:
@@ -130,12 +179,10 @@ class Simulation(Replayable):
                 continue
             found = self._core.advance(min(wanted, count) - done)
             if found:
-                error = diverged(found)
-                error.trajectory = recorder.trajectory()
-                raise error
+                return found
             if wanted <= count:
-                recorder.take()
-        return recorder.trajectory()
+                take()
+        return None
 
     def compare(self, other: Simulation, steps: int) -> int | None:
         """Steps both at once, and returns the first step whose states differ in any bit; None if none does.
@@ -244,6 +291,11 @@ class Simulation(Replayable):
         if steps < 0:
             raise UsageError("a run takes 0 s or more")
         return steps
+
+
+def _check_interval(every: float | None) -> None:
+    if every is not None and not every > 0:
+        raise UsageError(f"an interval of samples is more than 0 s, not {every}")
 
 
 def resume(path: Path, backend: str = "auto", *, threads: int = 0) -> Simulation:

@@ -7,8 +7,10 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from . import _exports
 from ._body import weighted
 from ._errors import UsageError
+from ._scene import Scene
 
 if TYPE_CHECKING:
     import numpy as np
@@ -73,21 +75,79 @@ class Series(Mapping[str, Any]):
                 flat[name] = value
         return flat
 
-    def _savez(self, path: str | os.PathLike[str], overwrite: bool, **more: Any) -> None:
+    def _save(self, path: str | os.PathLike[str], overwrite: bool, arrays: dict[str, Any]) -> None:
         import numpy as np
 
-        if not os.fspath(path).endswith(".npz"):
-            raise UsageError(f"a trajectory is saved as .npz, not as {os.fspath(path)!r}")
-        with open(path, "wb" if overwrite else "xb") as file:
-            np.savez_compressed(file, **more, **self._flat())
+        ending = os.path.splitext(os.fspath(path))[1]
+
+        def write(name: str) -> None:
+            if ending == ".npz":
+                np.savez_compressed(name, **arrays)
+                return
+            try:
+                import zarr  # type: ignore[import-not-found, unused-ignore]  # noqa: F401
+            except ModuleNotFoundError:
+                raise _exports.needs("zarr", "a trajectory as .zarr") from None
+            data = self.to_xarray()
+            # Text of any length is what the format knows.
+            texts = {n: a.astype(object) for n, a in data.variables.items() if a.dtype.kind == "U"}
+            data.assign_coords({n: texts.pop(n) for n in list(texts) if n in data.coords}).assign(texts).to_zarr(
+                name, mode="w", consolidated=False
+            )
+
+        if ending not in (".npz", ".zarr"):
+            raise UsageError(f"a trajectory is saved as .npz or .zarr, not as {os.fspath(path)!r}")
+        _exports.write_complete(path, overwrite, write)
+
+    def to_xarray(self) -> Any:
+        """An ``xarray.Dataset``."""
+        raise NotImplementedError
+
+    def _dataset(self, sample: Sequence[str], arrays: dict[str, Any], coordinates: dict[str, Any], **more: Any) -> Any:
+        """``sample``: the dimensions that series have before their own."""
+        try:
+            import xarray  # type: ignore[import-not-found, unused-ignore]
+        except ModuleNotFoundError:
+            raise _exports.needs("xarray", "a dataset") from None
+        from . import _aspic
+
+        variables = {}
+        for name, array in arrays.items():
+            kind = _exports.kind_of(name)
+            attributes = {"long_name": kind.meaning, **({"units": kind.unit} if kind.unit else {})}
+            before = () if name.startswith("model.") else tuple(sample)
+            variables[name] = ((*before, *kind.dimensions), array, attributes)
+        found = {d for dimensions, _, _ in variables.values() for d in dimensions}
+        if "axis" in found:
+            coordinates = {**coordinates, "axis": ["x", "y", "z"]}
+        return xarray.Dataset(variables, coordinates, {"aspic_version": _aspic.version, **more})
 
 
-def _loadz(path: str | os.PathLike[str], *more: str) -> tuple[list[Any], dict[str, Any]]:
-    """The arrays ``more``, and the series."""
+def _arrays_of(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Those of a file, by name."""
     import numpy as np
 
-    with np.load(path, allow_pickle=False) as file:
-        arrays = {name: file[name] for name in file.files}
+    if not os.fspath(path).endswith(".zarr"):
+        with np.load(path, allow_pickle=False) as file:
+            return {name: file[name] for name in file.files}
+    try:
+        import xarray
+    except ModuleNotFoundError:
+        raise _exports.needs("xarray and zarr", "a trajectory as .zarr") from None
+    with xarray.open_zarr(os.fspath(path), consolidated=False) as data:
+        arrays = {str(name): array.values for name, array in data.variables.items()}
+        arrays = {name: np.array(a.tolist()) if a.dtype.kind in "OT" else a for name, a in arrays.items()}
+        arrays.pop("axis", None)
+        if "step" in arrays:
+            arrays["steps"] = arrays.pop("step")
+        if "scene" in data.attrs:
+            arrays["scene"] = data.attrs["scene"]
+    return arrays
+
+
+def _load(path: str | os.PathLike[str], *more: str) -> tuple[list[Any], dict[str, Any]]:
+    """The arrays ``more``, and the series."""
+    arrays = _arrays_of(path)
     others = [arrays.pop(name) for name in more]
     series: dict[str, Any] = {}
     for name, array in arrays.items():
@@ -105,22 +165,43 @@ class Trajectory(Series):
     Arrays have the samples first: positions (t, n, 3), a centre of mass (t, 3), a speed (t,).
     """
 
-    def __init__(self, steps: Any, time: Any, series: dict[str, Any]):
+    def __init__(self, steps: Any, time: Any, series: dict[str, Any], scene: Scene | None = None):
         super().__init__(series)
         self.steps: NDArray[np.int64] = steps
         """Steps since the start, (t,)."""
         self.time: NDArray[np.float64] = time
         """[s], (t,)."""
+        self.scene = scene
+        """What ran; None of a file that does not say it."""
+
+    @functools.cached_property
+    def model(self) -> dict[str, Any]:
+        """What does not change, by the names of exports (docs/exports.md): ``model["model.springs"]``, ….
+
+        Raises UsageError where the scene is not known.
+        """
+        return _exports.model_arrays(_exports.scene_of(self))
 
     def __repr__(self) -> str:
         return f"<aspic.Trajectory: {len(self.time)} samples of {', '.join(self._series) or 'nothing'}>"
 
-    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes a compressed .npz of numpy, with ``steps`` and ``time``.
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "model"}
 
-        Raises UsageError where the name has another ending; FileExistsError unless ``overwrite``.
+    def _arrays(self) -> dict[str, Any]:
+        """Series, and with those of all particles or springs what does not change."""
+        flat = self._flat()
+        return {**flat, **self.model} if self.scene is not None and _exports.about_all(flat) else flat
+
+    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
+        """Writes what was recorded, for ``load()``: a compressed .npz of numpy, or a folder .zarr.
+
+        Both hold ``steps``, ``time`` and the scene, and with positions, strains or the like also masses, springs and
+        surfaces. They appear complete or not at all. .zarr needs the packages xarray and zarr. Raises UsageError where
+        the name has another ending; FileExistsError unless ``overwrite``.
         """
-        self._savez(path, overwrite, steps=self.steps, time=self.time)
+        scene = {} if self.scene is None else {"scene": self.scene.toml}
+        self._save(path, overwrite, {"steps": self.steps, "time": self.time, **self._arrays(), **scene})
 
     def _write(self, file: Any) -> None:
         """Writes it as ``save()`` does into an open file."""
@@ -130,19 +211,36 @@ class Trajectory(Series):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Trajectory:
-        """Reads what ``save()`` wrote. Raises what ``numpy.load()`` raises."""
-        (steps, time), series = _loadz(path, "steps", "time")
-        return cls(steps, time, series)
+        """Reads what ``save()`` wrote, or ``aspic run --export`` as .npz. Raises what ``numpy.load()`` raises."""
+        (steps, time), series = _load(path, "steps", "time")
+        scene = series.pop("scene", None)
+        series = {name: array for name, array in series.items() if not name.startswith("model.")}
+        if scene is not None and not isinstance(scene, str):
+            scene = scene.item().decode() if scene.dtype.kind == "S" else str(scene)
+        return cls(steps, time, series, None if scene is None else Scene(scene))
+
+    def export(self, path: str | os.PathLike[str], overwrite: bool = False, *, springs: bool = False) -> None:
+        """Writes the motion for other programs, as docs/exports.md says.
+
+        ``path``: .pvd (ParaView), .pc2 (Blender), .npz (numpy) or .zarr, or .usd, .usda, .usdc by the package usd-core;
+        ``springs``: in USD also the springs of bodies that have a skin, which makes files large. Needs what
+        ``record=["motion"]`` records; USD and .zarr take what there is. Contact and force are those of a run without
+        pulls. Files appear complete or not at all. Raises UsageError, also for other endings; FileError or
+        FileExistsError where a file exists, unless ``overwrite``.
+        """
+        _exports.export(self, path, overwrite, springs)
 
     def to_xarray(self) -> Any:
-        """An ``xarray.Dataset`` with the coordinate ``time``; needs the package xarray."""
-        import xarray  # type: ignore[import-not-found, unused-ignore]
+        """An ``xarray.Dataset`` with the coordinate ``time`` and units; needs the package xarray.
 
-        variables = {}
-        for name, array in self._flat().items():
-            others = {1: [], 2: ["axis"], 3: [f"{name}.particle", "axis"]}[array.ndim]
-            variables[name] = (["time", *others], array)
-        return xarray.Dataset(variables, coords={"time": self.time, "step": ("time", self.steps)})
+        With what is recorded of all particles or springs it holds masses, springs and surfaces too, ``model.…``.
+        """
+        coordinates = {
+            "time": ("time", self.time, {"units": "s", "long_name": "time"}),
+            "step": ("time", self.steps),
+        }
+        scene = {} if self.scene is None else {"scene": self.scene.toml}
+        return self._dataset(("time",), self._arrays(), coordinates, **scene)
 
 
 class BatchTrajectory(Series):
@@ -169,19 +267,33 @@ class BatchTrajectory(Series):
         )
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes a compressed .npz of numpy, with ``time``, ``diverged`` and ``hash``.
+        """Writes what was recorded, with ``time``, ``diverged`` and ``hash``: a compressed .npz, or a folder .zarr.
 
-        Raises UsageError where the name has another ending; FileExistsError unless ``overwrite``.
+        It appears complete or not at all. .zarr needs the packages xarray and zarr. Raises UsageError where the name
+        has another ending; FileExistsError unless ``overwrite``.
         """
         import numpy as np
 
-        self._savez(path, overwrite, time=self.time, diverged=self.diverged, hash=np.array(self.hash))
+        more = {"time": self.time, "diverged": self.diverged, "hash": np.array(self.hash)}
+        self._save(path, overwrite, {**more, **self._flat()})
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> BatchTrajectory:
         """Reads what ``save()`` wrote. Raises what ``numpy.load()`` raises."""
-        (time, diverged, hashes), series = _loadz(path, "time", "diverged", "hash")
+        (time, diverged, hashes), series = _load(path, "time", "diverged", "hash")
         return cls(time, diverged, hashes.tolist(), series)
+
+    def to_xarray(self) -> Any:
+        """An ``xarray.Dataset`` with the dimensions ``instance`` and ``sample``; needs the package xarray.
+
+        ``time`` is that of each instance's samples; ``diverged`` and ``hash`` are of instances.
+        """
+        coordinates = {
+            "time": (("instance", "sample"), self.time, {"units": "s", "long_name": "time"}),
+            "diverged": ("instance", self.diverged, {"long_name": "the step that failed; 0: none did"}),
+            "hash": ("instance", self.hash, {"long_name": "hash of the last state"}),
+        }
+        return self._dataset(("instance", "sample"), self._flat(), coordinates)
 
 
 # What may be recorded: of a state's measures, of all particles or of a body.
@@ -192,6 +304,9 @@ _OF_ALL: dict[str, Callable[[Measures], Any]] = {
     "min-height": lambda m: m.min_height,
 }
 _ARRAYS = ("positions", "velocities")
+_OF_BALLS = ("ball-positions", "ball-velocities", "ball-angular-velocities")
+# In the order in which the library tells them.
+_QUANTITIES = ("speed", "mean-strain", "force", "contact-force", "contact", "strain", "tension")
 _OF_BODIES = ("centre-of-mass", "momentum")
 
 
@@ -214,6 +329,14 @@ class _Sample:
         return self._simulation.velocities
 
     @functools.cached_property
+    def quantities(self) -> dict[str, Any]:
+        """In the precision of the run."""
+        core = self._simulation._core
+        float_type = "float64" if core.doubles else "float32"
+        found: dict[str, Any] = dict(zip(_QUANTITIES, core.quantities()))
+        return {name: a if a.dtype == "uint8" else a.astype(float_type, copy=False) for name, a in found.items()}
+
+    @functools.cached_property
     def hash(self) -> str:
         return self._simulation.hash
 
@@ -224,6 +347,9 @@ class Recorder:
     def __init__(self, simulation: Readable, names: Sequence[str]):
         if isinstance(names, str):
             names = [names]
+        balls = bool(simulation._core.balls())
+        motion = [name for name in _exports.MOTION if balls or name not in _OF_BALLS]
+        names = [part for name in names for part in (motion if name == "motion" else [name])]
         self._simulation = simulation
         self._samples: dict[str, list[Any]] = {name: [] for name in names}
         self._steps: list[int] = []
@@ -238,6 +364,10 @@ class Recorder:
                 return lambda s: measure(s.measures)
             if what in _ARRAYS:
                 return lambda s: getattr(s, what)
+            if what in _OF_BALLS:
+                return lambda s: self._simulation.read(what.replace("-", "_"))
+            if what in _QUANTITIES:
+                return lambda s: s.quantities[what]
             if what == "hash":
                 return lambda s: s.hash
             particles = slice(None)
@@ -251,7 +381,7 @@ class Recorder:
             if what == "momentum":
                 return lambda s: weighted(masses, s.velocities[particles])
             return lambda s: weighted(masses, s.positions[particles]) / float(masses.sum())
-        known = [*_OF_ALL, *_ARRAYS, "centre-of-mass", "hash"]
+        known = ["motion", *_OF_ALL, *_ARRAYS, "centre-of-mass", "hash", *_QUANTITIES, *_OF_BALLS]
         raise UsageError(
             f"{name!r} cannot be recorded; {', '.join(known)} can, and of a body "
             f"{', '.join(f'{self._example()}.{part}' for part in _ARRAYS + _OF_BODIES)}"
@@ -278,4 +408,4 @@ class Recorder:
                 series[name] = Energy(*(np.array(part, dtype=np.float64) for part in zip(*samples)))
             else:
                 series[name] = np.array(samples)
-        return Trajectory(steps, steps * self._simulation.timestep, series)
+        return Trajectory(steps, steps * self._simulation.timestep, series, self._simulation.scene)

@@ -68,5 +68,6 @@ void bind_state(nb::module_& module);
 void bind_simulation(nb::module_& module);
 void bind_batch(nb::module_& module);
 void bind_sweep(nb::module_& module);
+void bind_export(nb::module_& module);
 
 }  // namespace aspic::python

@@ -31,4 +31,5 @@ NB_MODULE(_aspic, module) {
   bind_simulation(module);
   bind_batch(module);
   bind_sweep(module);
+  bind_export(module);
 }

@@ -75,6 +75,11 @@ Measures Simulation::measures() {
   return alone([&] { return measure(*model_, take(backend_.solver->state())); });
 }
 
+StateQuantities Simulation::quantities() {
+  return alone(
+      [&] { return quantities_of(*model_, take(backend_.solver->state()), backend_.solver->inputs()); });
+}
+
 void Simulation::load(const State& state, const InputLog* log) {
   alone([&] {
     refuse_while_viewed();
@@ -222,22 +227,22 @@ std::string Simulation::log_text() {
 }
 
 void Simulation::write_state(const std::string& path, bool overwrite) {
-  alone([&] {
-    check(aspic::write_state(path, *model_, take(backend_.solver->state()),
-                             overwrite ? Overwrite::allow : Overwrite::refuse));
-  });
+  alone([&] { write_file("state", path, overwrite); });
 }
 
 void Simulation::write_checkpoint(const std::string& path, bool overwrite) {
-  alone([&] {
-    const RunFacts facts = {to_toml(scene_), scene_.model.simulation.integrator,
-                            log_.empty() ? "" : to_toml(log_, scene_.model.simulation.timestep)};
-    auto files = take(RunFiles::open({{"checkpoint", path, {}}}, {}, facts,
-                                     overwrite ? Overwrite::allow : Overwrite::refuse));
-    const State state = take(backend_.solver->state());
-    check(files.take({*model_, state}));
-    check(files.finish({*model_, state}));
-  });
+  alone([&] { write_file("checkpoint", path, overwrite); });
+}
+
+void Simulation::write_file(const std::string& option, const std::string& path, bool overwrite) {
+  const RunFacts facts = {to_toml(scene_), scene_.model.simulation.integrator,
+                          log_.empty() ? "" : to_toml(log_, scene_.model.simulation.timestep)};
+  auto files =
+      take(RunFiles::open({{option, path, {}}}, {}, facts, overwrite ? Overwrite::allow : Overwrite::refuse));
+  const State state = take(backend_.solver->state());
+  const Sample sample = {.model = *model_, .state = state, .inputs = &backend_.solver->inputs()};
+  check(files.take(sample));
+  check(files.finish(sample));
 }
 
 }  // namespace aspic::python

@@ -73,6 +73,12 @@ class Simulation {
   /// Error (usage): numbers of another model.
   void load(const State& state, const InputLog* log);
   Measures measures();
+  StateQuantities quantities();
+  /// A state with what belongs to it, for f(model, state, inputs), without the GIL.
+  template <class F>
+  void show(const F& f) {
+    alone([&] { f(model_, take(backend_.solver->state()), backend_.solver->inputs()); });
+  }
 
   /// The step that failed ends it.
   std::optional<Divergence> advance(std::uint64_t steps);
@@ -99,6 +105,7 @@ class Simulation {
   void end_view() { --views_; }
 
  private:
+  void write_file(const std::string& option, const std::string& path, bool overwrite);
   void refuse_while_viewed() const;
   std::optional<Divergence> advance_alone(std::uint64_t steps);
   Result<std::optional<Divergence>> film_alone(const FilmWish& wish, bool& signalled);

@@ -208,7 +208,7 @@ def test_runs_record_at_intervals(sim: aspic.Simulation) -> None:
     back = aspic.Trajectory.load("run.npz")
     assert list(back) == names and np.array_equal(back["energy"].total, path["energy"].total)
     assert path.get("none") is None
-    for wrong in ("speed", "cube[0].energy", "cube[3].positions", "energi"):
+    for wrong in ("sped", "cube[0].speed", "cube[0].energy", "cube[3].positions", "energi"):
         with pytest.raises(aspic.UsageError):
             sim.run(steps=0, record=[wrong])
     for lengths in ({"duration": 1.0, "steps": 3}, {"steps": -1}, {"duration": -1.0}, {"steps": 3, "every": 0.0}):

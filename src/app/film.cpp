@@ -62,7 +62,7 @@ void Film::start() {
   pace_.emplace(recording_->options().fps);
   scene_ = editor_.source();
   taken_.reset();
-  start_page();
+  start_files();
   messages_.info(fmt::format("Recording to {}, in step with simulated time.", recording_->options().path));
   take();
 }
@@ -75,41 +75,52 @@ void Film::stop() {
 }
 
 /// Next to the film, of its name. The film goes on where there can be none.
-void Film::start_page() {
-  page_.reset();
-  if (!settings.page) return;
+void Film::start_files() {
+  files_.clear();
   std::filesystem::path named(recording_->options().path);
   if (find_film_format(named.extension().string())) named.replace_extension();
-  auto page = FilmPage::start(named.string() + ".html", comparison_view_, recording_->options().fps,
-                              simulation_.pacer().speed());
-  if (!page)
-    return messages_.error(worded(page.error(), FrontEnd::window) + " The film goes on without a page.");
-  page_.emplace(std::move(*page));
+  if (settings.page)
+    keep(start_film_page(named.string() + ".html", comparison_view_, recording_->options().fps,
+                         simulation_.pacer().speed()),
+         "a page");
+  if (settings.states)
+    keep(start_film_states(named.string() + std::string(settings.states->ending), *settings.states,
+                           comparison_),
+         "states");
+}
+
+void Film::keep(Result<std::unique_ptr<FilmFile>> file, std::string_view without) {
+  if (file) return files_.push_back(std::move(*file));
+  messages_.error(
+      fmt::format("{} The film goes on without {}.", worded(file.error(), FrontEnd::window), without));
 }
 
 /// The states of the picture that was drawn.
-Status Film::add_to_page() {
-  if (!page_) return {};
+Status Film::add_to_files() {
+  if (files_.empty()) return {};
   // A backend in the context hands its state over when it is asked.
   if (!comparison_.active() && simulation_.present().device_state())
     ASPIC_CHECK(simulation_.refresh_snapshot());
-  page_->add(comparison_view_);
-  if (page_->complete()) end_page();
+  for (const auto& file : files_) file->add(comparison_view_);
+  end_files(false);
   return {};
 }
 
-void Film::end_page() {
-  if (!page_) return;
-  page_->finish();
-  if (page_->failed())
-    messages_.error(page_->said());
-  else
-    messages_.info(page_->said());
-  page_.reset();
+/// Tells what became of those that are complete; `all`: completes the others first.
+void Film::end_files(bool all) {
+  std::erase_if(files_, [&](const std::unique_ptr<FilmFile>& file) {
+    if (all) file->finish();
+    if (!file->complete()) return false;
+    if (file->failed())
+      messages_.error(file->said());
+    else
+      messages_.info(file->said());
+    return true;
+  });
 }
 
 void Film::end() {
-  end_page();
+  end_files(true);
   recording_->end();
   completing_.push_back(std::move(recording_));
   pace_.reset();
@@ -192,7 +203,7 @@ void Film::take() {
   if (copies > 0) {
     Status taken = draw();
     if (taken) taken = recording_->add(drawn(), copies);
-    if (taken) taken = add_to_page();
+    if (taken) taken = add_to_files();
     if (!messages_.check(taken)) return end();
   }
   // Where the run was put to another state it waits until that is shown.

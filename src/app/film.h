@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/comparison_view.h"
-#include "app/film_page.h"
+#include "app/film_file.h"
 #include "app/messages.h"
 #include "app/scene_editor.h"
 #include "app/scene_picture.h"
@@ -23,10 +23,11 @@ namespace aspic::app {
 /// What the next film will be.
 struct FilmSettings {
   const FilmFormat* format = &film_formats().front();
-  double fps = 60.0;  ///< pictures shown per second, 1 … the format's most
-  bool text = true;   ///< the parameters are written on the picture
-  std::string path;   ///< empty: free_name()
-  bool page = false;  ///< a page for browsers is written next to it
+  double fps = 60.0;                    ///< pictures shown per second, 1 … the format's most
+  bool text = true;                     ///< the parameters are written on the picture
+  std::string path;                     ///< empty: free_name()
+  bool page = false;                    ///< a page for browsers is written next to it
+  const StateFormat* states = nullptr;  ///< of its states next to it; null: none
 };
 
 /// The ending of a film's name: that of a video, nothing for a directory.
@@ -73,9 +74,10 @@ class Film {
 
  private:
   void end();
-  void start_page();
-  Status add_to_page();
-  void end_page();
+  void start_files();
+  void keep(Result<std::unique_ptr<FilmFile>> file, std::string_view without);
+  Status add_to_files();
+  void end_files(bool all);
   void report_completed();
   std::uint64_t wanted_copies();
   FilmLook look_of(std::size_t run) const;
@@ -91,10 +93,10 @@ class Film {
   Messages& messages_;
   std::unique_ptr<Recording> recording_;
   std::optional<FilmPace> pace_;
-  std::optional<FilmPage> page_;            // next to the film
-  std::optional<ComparisonCanvas> canvas_;  // of several runs
-  std::optional<std::uint64_t> taken_;      // step of the last picture
-  std::string scene_;                       // that was filmed last
+  std::vector<std::unique_ptr<FilmFile>> files_;  // next to the film
+  std::optional<ComparisonCanvas> canvas_;        // of several runs
+  std::optional<std::uint64_t> taken_;            // step of the last picture
+  std::string scene_;                             // that was filmed last
   std::vector<std::unique_ptr<Recording>> completing_;
 };
 

@@ -65,6 +65,26 @@ void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
                   hint));
 }
 
+/// Whether the film's states are written too, and in which format.
+void states_widget(Gui& gui, FilmSettings& film) {
+  label_column("States");
+  std::vector<const StateFormat*> formats = {nullptr};
+  std::vector<std::string_view> names = {"none"}, labels = {"none"};
+  std::string help =
+      "Writes the states of the film's pictures as well, under its name, as aspic run --export does.";
+  for (const StateFormat& format : state_formats()) {
+    if (!format.motion) continue;
+    formats.push_back(&format);
+    names.push_back(format.ending);
+    labels.push_back(format.label);
+    help += fmt::format("\n{}: {}.", format.ending, format.label);
+  }
+  auto index = static_cast<std::size_t>(std::ranges::find(formats, film.states) - formats.begin());
+  if (choice(gui, "record/states", names, labels, index,
+             help + "\nIt ends where the model becomes another, or the run goes back."))
+    film.states = formats[index];
+}
+
 /// The energies of the plot as a table.
 Status write_series(const std::string& path, Overwrite overwrite, const std::deque<EnergySample>& samples) {
   ASPIC_TRY(auto series, SeriesWriter::create(path, overwrite));
@@ -185,6 +205,7 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
             "to be turned "
             "and played there, as aspic run --page writes it. It ends where the model becomes another, or "
             "the run goes back.");
+  states_widget(gui, film.settings);
   if (film.completing() > 0) ImGui::TextDisabled("Completing the last film …");
 }
 
@@ -203,6 +224,7 @@ void state_files(Gui& gui, const std::string& source, Simulation& simulation, Co
                  Messages& messages, FileDialog& files) {
   const Comparison& comparison = comparison_view.comparison();
   for (const StateFormat& format : state_formats()) {
+    if (format.motion) continue;  // next to films
     const std::string name = fmt::format("save/{}{}", format.option, format.ending);
     const std::string label = fmt::format("Save {}… ({})", format.option, format.ending);
     std::string help = format.over_time

@@ -307,7 +307,10 @@ Status execute_comparison(const RunOptions& options) {
   // Pictures last: an encoder may keep a run waiting.
   for (const auto& m : variants) {
     const Outcome& outcome = *m->outcome;
-    (void)m->files.finish({*m->model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
+    (void)m->files.finish({.model = *m->model,
+                           .state = outcome.state,
+                           .solves = outcome.solves.value_or(SolveStatistics{}),
+                           .inputs = &m->headless->solver().inputs()});
   }
   if (recorder && pictured_all) pictured_all = recorder->finish();
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};

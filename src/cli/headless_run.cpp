@@ -40,7 +40,10 @@ Status lost_error(const std::vector<Error>& failures, bool others) {
 // steps are made.
 Status HeadlessRun::sample() {
   ASPIC_TRY(const auto state, solver_.state());
-  ASPIC_CHECK(files_.take({solver_.model(), state, solver_.solve_statistics().value_or(SolveStatistics{})}));
+  ASPIC_CHECK(files_.take({.model = solver_.model(),
+                           .state = state,
+                           .solves = solver_.solve_statistics().value_or(SolveStatistics{}),
+                           .inputs = &solver_.inputs()}));
   const std::vector<Error>& failures = files_.failures();
   if (!failures.empty() && !files_.any_left() && !others_) return failures.front();
   losses_.tell(failures);

@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 /// Scene and start of a run.
 struct Start {
   Scene scene;
-  std::string scene_toml;      ///< for a checkpoint; empty where none is asked for
+  std::string scene_toml;      ///< for files that hold it; empty where there are none
   std::optional<State> state;  ///< absent: the scene's own
   std::string inputs_toml;     ///< of a checkpoint
 };
@@ -47,9 +47,10 @@ std::string first_difference(const std::string& a, const std::string& b) {
   }
 }
 
-bool asks_for_checkpoint(const RunOptions& options) {
+/// Whether a file holds the scene.
+bool asks_for_scene(const RunOptions& options) {
   return std::ranges::any_of(options.outputs, [](const StateOutput& output) {
-    return output.option == "checkpoint" && !output.path.empty();
+    return (output.option == "checkpoint" || output.option == "export") && !output.path.empty();
   });
 }
 
@@ -57,7 +58,7 @@ Result<Start> load_start(const RunOptions& options) {
   Start start;
   if (options.resume_file.empty()) {
     ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides, by_set));
-    if (asks_for_checkpoint(options)) start.scene_toml = to_toml(scene);
+    if (asks_for_scene(options)) start.scene_toml = to_toml(scene);
     // A view changes no checkpoint: it is no part of the run.
     ASPIC_TRY(start.scene, with_view(std::move(scene), options.view, by_view));
     return start;
@@ -205,8 +206,11 @@ Status execute(const RunOptions& options) {
   }
   HeadlessRun headless(*backend.solver, files, first_step, options.pictures.any(), inputs);
   ASPIC_TRY(auto outcome, simulate(headless, recorder.get(), steps, interrupt));
-  (void)files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{}), nullptr,
-                      outcome.divergence ? &*outcome.divergence : nullptr});
+  (void)files.finish({.model = model,
+                      .state = outcome.state,
+                      .solves = outcome.solves.value_or(SolveStatistics{}),
+                      .divergence = outcome.divergence ? &*outcome.divergence : nullptr,
+                      .inputs = &backend.solver->inputs()});
   if (recorder) finish_pictures(*recorder, *backend.solver, outcome);
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
   if (!outcome.pictured && lost.empty()) lost.push_back(outcome.pictured.error());

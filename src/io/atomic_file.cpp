@@ -198,6 +198,19 @@ Status AtomicFile::flush() {
   return {};
 }
 
+Status AtomicFile::replace(std::uint64_t offset, std::string_view bytes) {
+  ASPIC_CHECK(require_open());
+  ASPIC_CHECK(flush());
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return give_up(errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    offset += static_cast<std::uint64_t>(written);
+  }
+  return {};
+}
+
 Status AtomicFile::give_final_name() {
   if (overwrite_ == Overwrite::refuse) {
     // link() refuses an existing name in one step; rename() would replace a file made since create() looked.

@@ -1,6 +1,7 @@
 #pragma once
 // Files that appear complete or not at all: written under a temporary name in their directory and renamed
 // when complete.
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,10 @@ class AtomicFile {
 
   /// Appends; buffered. After an error the file can only be discarded.
   Status write(std::string_view text);
+
+  /// Replaces bytes that were written before, from `offset` on; not of a device or a pipe. Afterwards as
+  /// write().
+  Status replace(std::uint64_t offset, std::string_view bytes);
 
   /// Flushes, waits for the disk and gives the file its final name. Error too if another program has put a
   /// file there in the meantime and overwriting was refused: neither file is lost then, but this one is

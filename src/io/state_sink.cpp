@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -11,6 +9,10 @@
 #include "base/files.h"
 #include "base/printable.h"
 #include "io/checkpoint.h"
+#include "io/export_npz.h"
+#include "io/export_pc2.h"
+#include "io/export_pvd.h"
+#include "io/numbered_files.h"
 #include "io/series_csv.h"
 #include "io/state_csv.h"
 #include "io/state_vtp.h"
@@ -18,36 +20,6 @@
 
 namespace aspic {
 namespace {
-
-/// "end.csv" with "00000040" for the step: "end-00000040.csv".
-std::string numbered(const std::string& path, const std::string& step) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  return fmt::format("{}-{}{}", path.substr(0, path.size() - ending.size()), step, ending);
-}
-
-/// Files of an earlier run that this one would come to later, perhaps after hours. Error (io).
-Status refuse_later_files(const std::string& pattern, std::uint64_t step) {
-  const std::filesystem::path first = numbered(pattern, "");  // "end-.csv"
-  const std::string stem = first.stem().string(), ending = first.extension().string();
-  const std::filesystem::path directory = first.has_parent_path() ? first.parent_path() : ".";
-  std::error_code failed;
-  for (std::filesystem::directory_iterator it(directory, failed), end; !failed && it != end;
-       it.increment(failed)) {
-    const std::string name = it->path().filename().string();
-    if (name.size() < stem.size() + 8 + ending.size() || !name.starts_with(stem) || !name.ends_with(ending))
-      continue;
-    const std::string_view digits =
-        std::string_view(name).substr(stem.size(), name.size() - stem.size() - ending.size());
-    std::uint64_t found = 0;
-    const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), found);
-    if (error != std::errc() || rest != digits.data() + digits.size() || found < step) continue;
-    return advised(
-        fail(ErrorCode::io, "{} already exists, and the run may come to that step. It was not changed.",
-             printable_line((directory / name).string())),
-        {advice("choose another name"), {RemedyKind::overwrite}});
-  }
-  return {};
-}
 
 /// Writes one state to a file that is not committed yet. Error (diverged): a number is not finite.
 using StateWriter = Status (*)(AtomicFile&, const Sample&);
@@ -92,15 +64,14 @@ class StateFiles final : public StateSink {
   Status write(const Sample& sample) {
     if (last_step_ == sample.state.step) return {};
     if (!pattern_.empty()) {
-      ASPIC_TRY(file_,
-                AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
+      ASPIC_TRY(file_, AtomicFile::create(numbered(pattern_, sample.state.step), overwrite_));
     } else if (!file_) {
       // What is there since the last one is our own.
       ASPIC_TRY(file_, AtomicFile::create(path(), last_step_ ? Overwrite::allow : overwrite_));
     }
     AtomicFile file = std::move(*file_);
     file_.reset();
-    ASPIC_CHECK(writer_(file, {sample.model, sample.state, sample.solves, &facts_}));
+    ASPIC_CHECK(writer_(file, {sample.model, sample.state, sample.solves, &facts_, nullptr, sample.inputs}));
     ASPIC_CHECK(file.commit());
     last_step_ = sample.state.step;
     return {};
@@ -141,7 +112,7 @@ Status write_csv(AtomicFile& file, const Sample& sample) {
 }
 
 Status write_vtp(AtomicFile& file, const Sample& sample) {
-  return write_state_vtp(file, sample.model, sample.state);
+  return write_state_vtp(file, sample);
 }
 
 Status write_whole_run(AtomicFile& file, const Sample& sample) {
@@ -153,6 +124,9 @@ constexpr std::string_view state_summary = "write the final state";
 constexpr std::string_view state_every =
     "steps between states: FILE-00000040.csv and so on, from the first to the last";
 
+constexpr std::string_view export_summary = "write the motion";
+constexpr std::string_view export_every = "steps between samples of the export; default: about 0.02 s";
+
 constexpr StateFormat table[] = {
     {"state", ".csv", "CSV", state_summary, state_every, 0, false, false, StateFiles::open<write_csv>},
     {"state", ".vtp", "VTK PolyData", state_summary, state_every, 0, false, false,
@@ -162,6 +136,11 @@ constexpr StateFormat table[] = {
     {"checkpoint", ".aspic", "a checkpoint", "write scene and final state, to resume from,",
      "steps between checkpoints, each replacing the previous one", 0, false, true,
      StateFiles::open<write_whole_run, Keep::newest>},
+    {"export", ".pvd", "ParaView's series", export_summary, export_every, 0, false, false, open_pvd, true,
+     "-*.vtp"},
+    {"export", ".pc2", "Blender's cache", export_summary, export_every, 0, false, false, open_pc2, true,
+     ".obj"},
+    {"export", ".npz", "numpy's arrays", export_summary, export_every, 0, false, false, open_npz, true},
 };
 
 }  // namespace

@@ -53,6 +53,8 @@ struct StateFormat {
   /// Opens the output, which proves that its place can be written. Errors (io): AtomicFile::create.
   Result<std::unique_ptr<StateSink>> (*open)(const std::string& path, std::uint64_t every,
                                              Overwrite overwrite, const RunFacts& facts) = nullptr;
+  bool motion = false;              ///< states over time: only a run gives them
+  std::string_view companion = {};  ///< what further files end in, in place of `ending`; * for the step
 };
 
 /// All formats; those of one option follow one another, its default first.

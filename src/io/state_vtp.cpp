@@ -12,6 +12,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "analysis/particle_force.h"
+#include "aspic/analysis.h"
 #include "io/state_csv.h"
 #include "model/springs.h"
 
@@ -90,8 +92,35 @@ std::vector<T> flat(std::span<const Vec3> particles, std::span<const Vec3> balls
   return numbers;
 }
 
+/// The same of numbers.
 template <class T>
-void write_points(Document& document, const Model& model, const State& state) {
+std::vector<T> flat(const std::vector<double>& particles, const std::vector<double>& balls) {
+  std::vector<T> numbers;
+  numbers.reserve(particles.size() + balls.size());
+  for (const auto* part : {&particles, &balls})
+    for (const double x : *part) numbers.push_back(static_cast<T>(x));
+  return numbers;
+}
+
+/// What balls have of the quantities: their contacts are impulses, which no state holds.
+struct BallQuantities {
+  std::vector<double> speed;
+  std::vector<Vec3> force;
+};
+
+BallQuantities ball_quantities(const Model& model, const State& state, const Inputs& inputs) {
+  BallQuantities balls;
+  for (std::uint32_t b = 0; b < model.ball_count(); ++b) {
+    const bool flies = model.balls[b].launched(state.step);
+    balls.speed.push_back(flies ? length(state.ball_velocity[b]) : 0.0);
+    balls.force.push_back(flies ? ball_force(model, state, b, inputs).net : Vec3{});
+  }
+  return balls;
+}
+
+template <class T>
+void write_points(Document& document, const Model& model, const State& state, const StateQuantities& q,
+                  const Inputs& inputs) {
   const std::vector<Vec3> no_turning(model.particle_count());
   std::vector<double> mass(model.mass.begin(), model.mass.end()), radius(model.particle_count(), 0.0);
   std::vector<std::uint8_t> pinned;
@@ -109,37 +138,48 @@ void write_points(Document& document, const Model& model, const State& state) {
   document.array("mass", mass);
   document.array("radius", radius);
   document.array("pinned", pinned);
+  const BallQuantities balls = ball_quantities(model, state, inputs);
+  const std::vector<double> no_springs(model.ball_count());
+  const std::vector<Vec3> no_contact(model.ball_count());
+  std::vector<std::uint8_t> contact = q.contact;
+  contact.resize(contact.size() + model.ball_count());
+  document.array("speed", flat<T>(q.speed, balls.speed));
+  document.array("mean-strain", flat<T>(q.mean_strain, no_springs));
+  document.array("force", flat<T>(q.force, balls.force), 3);
+  document.array("contact-force", flat<T>(q.contact_force, no_contact), 3);
+  document.array("contact", contact);
   document.add("</PointData>\n");
 }
 
-/// Cells with the number of their body, −1 for balls; of springs also the type and the strain.
-void write_cells(Document& document, const Model& model, const State& state) {
+/// Cells with the number of their body, −1 for balls; of springs also type, strain and tension.
+template <class T>
+void write_cells(Document& document, const Model& model, const StateQuantities& q) {
   Cells balls, springs, quads;
   std::vector<std::int32_t> body(model.ball_count(), -1);
   std::vector<std::uint8_t> type(model.ball_count(), 255);
-  std::vector<double> strain(model.ball_count(), 0.0);
   for (std::uint64_t b = 0; b < model.ball_count(); ++b) balls.add({model.particle_count() + b});
   std::size_t owner = 0;
   for (const Spring& s : springs_of(model)) {
     while (owner < model.bodies.size() &&
            s.a >= model.bodies[owner].first_particle + model.bodies[owner].particle_count)
       ++owner;
-    const SpringClass& c = model.spring_classes[s.spring_class];
     springs.add({s.a, s.b});
     body.push_back(static_cast<std::int32_t>(owner));
-    type.push_back(static_cast<std::uint8_t>(c.type));
-    strain.push_back(
-        c.rest_length > 0.0 ? length(state.position[s.a] - state.position[s.b]) / c.rest_length - 1.0 : 0.0);
+    type.push_back(static_cast<std::uint8_t>(model.spring_classes[s.spring_class].type));
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const QuadMesh surface = surface_of(model.bodies[b]);
-    for (const auto& [p, q, r, s] : surface.quads) {
-      quads.add({p, q, r, s});
+    for (const auto& [p, q1, r, s] : surface_of(model.bodies[b]).quads) {
+      quads.add({p, q1, r, s});
       body.push_back(static_cast<std::int32_t>(b));
       type.push_back(255);
-      strain.push_back(0.0);
     }
   }
+  std::vector<double> strain(model.ball_count());
+  strain.insert(strain.end(), q.strain.begin(), q.strain.end());
+  strain.resize(body.size());
+  std::vector<T> tension(model.ball_count());
+  for (const double f : q.tension) tension.push_back(static_cast<T>(f));
+  tension.resize(body.size());
   balls.write(document, "Verts");
   springs.write(document, "Lines");
   quads.write(document, "Polys");
@@ -147,12 +187,16 @@ void write_cells(Document& document, const Model& model, const State& state) {
   document.array("body", body);
   document.array("spring-type", type);
   document.array("strain", strain);
+  document.array("tension", tension);
   document.add("</CellData>\n");
 }
 
 }  // namespace
 
-Status write_state_vtp(AtomicFile& file, const Model& model, const State& state) {
+Status write_state_vtp(AtomicFile& file, const Sample& sample) {
+  const Model& model = sample.model;
+  const State& state = sample.state;
+  const Inputs inputs = sample.inputs ? *sample.inputs : Inputs();
   ASPIC_CHECK(check_finite(state, file.path()));
   std::uint64_t quads = 0;
   for (const Body& body : model.bodies) quads += surface_of(body).quads.size();
@@ -169,11 +213,12 @@ Status write_state_vtp(AtomicFile& file, const Model& model, const State& state)
       "NumberOfPolys=\"{}\">\n",
       std::uint64_t{model.particle_count()} + model.ball_count(), model.ball_count(), spring_count(model),
       quads));
-  if (state.precision == Precision::single)
-    write_points<float>(document, model, state);
-  else
-    write_points<double>(document, model, state);
-  write_cells(document, model, state);
+  const StateQuantities quantities = quantities_of(model, state, inputs);
+  const auto write = [&]<class T>(T) {
+    write_points<T>(document, model, state, quantities, inputs);
+    write_cells<T>(document, model, quantities);
+  };
+  state.precision == Precision::single ? write(0.0f) : write(0.0);
   document.add("</Piece>\n</PolyData>\n");
   return document.write(file);
 }

@@ -9,6 +9,7 @@
 
 #include "base/result.h"
 #include "io/film_format.h"
+#include "io/numbered_files.h"
 #include "io/state_sink.h"
 #include "page/page_writer.h"
 
@@ -18,7 +19,15 @@ namespace {
 Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOutput& pictures) {
   std::vector<std::pair<std::string, std::string>> files = {{"video", pictures.video},
                                                             {"page", pictures.page}};
-  for (const StateOutput& output : states) files.emplace_back(output.option, output.path);
+  for (const StateOutput& output : states) {
+    files.emplace_back(output.option, output.path);
+    if (output.path.empty()) continue;
+    const StateFormat& format = state_format_of(output.option, output.path);
+    if (!format.companion.empty())
+      files.emplace_back(output.option, with_ending(output.path, format.companion));
+    if (output.option == "state" && output.every.value_or(0) > 0)
+      files.emplace_back(output.option, numbered(output.path, "*"));
+  }
   std::erase_if(files, [](const auto& file) { return file.second.empty(); });
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t j = i + 1; j < files.size(); ++j) {

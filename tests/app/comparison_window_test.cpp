@@ -11,6 +11,7 @@
 #include "app/stage.h"
 #include "cpu_reference/reference_solver.h"
 #include "io/atomic_file.h"
+#include "io/state_sink.h"
 #include "render/read_back.h"
 #include "run/comparison.h"
 #include "scene/follow.h"
@@ -393,6 +394,7 @@ TEST_F(Comparison, AFilmShowsAllRunsAsEachIsDrawnAlone) {
   open("cube-plane", {small, low});
   compare({"integrator", "implicit-euler"});
   app().film.settings = {find_film_format("png"), 20.0, false, "film"};
+  app().film.settings.states = &state_format_of("export", "film.pvd");
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
   ASSERT_TRUE(app().film.recording()) << app().messages.notice()->text;
   const PictureSize size = app().film.recording()->options().size;
@@ -416,6 +418,10 @@ TEST_F(Comparison, AFilmShowsAllRunsAsEachIsDrawnAlone) {
     const Model& model = run(i).model();
     auto solver = make_reference_solver(model, Precision::single);
     ASSERT_TRUE((*solver)->advance(150).ok());
+    const auto path = [&](const std::string& name) { return (directory() / name).string(); };
+    const std::string expected = path(fmt::format("expected-{}.vtp", i));
+    ASSERT_TRUE(write_state(expected, model, *(*solver)->state(), Overwrite::refuse).ok());
+    EXPECT_TRUE(*read_file(path(fmt::format("film-{}-00000150.vtp", i + 1))) == *read_file(expected)) << i;
     ASSERT_TRUE((*renderer)->set_model(model).ok());
     const auto state = (*renderer)->upload(*(*solver)->state());
     ASSERT_TRUE(state.ok());

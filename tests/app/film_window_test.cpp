@@ -6,12 +6,14 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 
 #include "app/stage.h"
 #include "aspic/scene.h"
 #include "cpu_reference/reference_solver.h"
 #include "io/atomic_file.h"
+#include "io/state_sink.h"
 #include "page/page_reader.h"
 #include "support/environment.h"
 
@@ -129,6 +131,42 @@ TEST_F(Film, APageOfItsStatesIsWrittenNextToIt) {
 
 TEST_F(Film, APageOfStatesOnTheDevice) {
   film_with_page("gpu");
+}
+
+TEST_F(Film, ItsStatesAreWrittenNextToIt) {
+  open_small();
+  const Scene scene =
+      load_scene("cube-plane", std::vector<std::string>{"cube[0].particles-per-edge=4"}).value();
+  const Model model = build_model(scene.model).value();
+  auto solver = make_reference_solver(model, Precision::single).value();
+  ASSERT_TRUE(solver->advance(40).ok());
+  ASSERT_TRUE(
+      write_state((directory() / "expected.vtp").string(), model, solver->state().value(), Overwrite::refuse)
+          .ok());
+  press(GLFW_KEY_SPACE);
+  for (const StateFormat& format : state_formats()) {
+    if (!format.motion) continue;
+    press(GLFW_KEY_R);
+    const std::string name = "with" + std::string(format.ending.substr(1));
+    app().film.settings = {find_film_format("png"), 50.0, true, name, false, &format};
+    app().film.start();
+    frames_to_pictures(4);
+    // Back in time: the states end there, and the film goes on.
+    press(GLFW_KEY_R);
+    frames_to_pictures(6);
+    EXPECT_THAT(app().messages.notice()->text,
+                testing::HasSubstr(name + std::string(format.ending) + " holds the states"));
+    EXPECT_GT(file(name + std::string(format.ending)).size(), 200u);
+    end_film();
+  }
+  const std::string series = file("withpvd.pvd");
+  for (const char* time : {"\"0\"", "\"0.02\"", "\"0.04\"", "\"0.06\""})
+    EXPECT_THAT(series, testing::HasSubstr(fmt::format("timestep={}", time)));
+  EXPECT_TRUE(file("withpvd-00000040.vtp") == file("expected.vtp"));
+  std::int32_t samples = 0;
+  std::memcpy(&samples, file("withpc2.pc2").data() + 28, sizeof(samples));
+  EXPECT_GE(samples, 4);
+  EXPECT_THAT(file("withpc2.obj"), testing::HasSubstr("# interval 0.02\n"));
 }
 
 TEST_F(Film, TwoSecondsInEveryFilmFormat) {
@@ -299,6 +337,8 @@ TEST_F(Film, TheSectionStartsAndEndsIt) {
   click("record/format/jpeg");
   click("record/text");
   EXPECT_TRUE(app().film.settings.text) << "not by itself: it covers the scene";
+  click("record/states");
+  click("record/states/.npz");
   click("record/path");
   for (const char32_t c : U"reel") {
     if (c != 0) type(c);
@@ -310,6 +350,7 @@ TEST_F(Film, TheSectionStartsAndEndsIt) {
   click("record/stop");
   frames_to_complete();
   EXPECT_EQ(picture("reel", 0, "jpg").substr(0, 3), "\xff\xd8\xff");
+  EXPECT_EQ(file("reel.npz").substr(0, 4), "PK\3\4");
 }
 
 TEST_F(Film, ClosingTheWindowLeavesAWholeFilm) {

@@ -14,6 +14,7 @@ namespace {
 using test::aspic;
 using testing::AnyOf;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 using Words = std::vector<std::string>;
 

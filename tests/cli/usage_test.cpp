@@ -140,6 +140,8 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"run", "cube-plane", "--series-every", "5"}, 2, "--series-every is for --series FILE"},
         Failure{
             {"run", "cube-plane", "--checkpoint-every=5"}, 2, "--checkpoint-every is for --checkpoint FILE"},
+        Failure{{"run", "cube-plane", "--export-every", "5"}, 2, "--export-every is for --export FILE"},
+        Failure{{"run", "cube-plane", "--export", "x.abc"}, 2, "must end in .pvd or .pc2 or .npz"},
         Failure{{"run", "cube-plane", "--series", "x.csv", "--every", "0"}, 2, "--every: 0 is too small"},
         Failure{{"run", "cube-plane", "--series", "x.csv", "--series-every", "0"},
                 2,

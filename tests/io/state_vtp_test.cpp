@@ -90,7 +90,7 @@ std::string written(const Model& model, const State& state) {
   const test::TemporaryDirectory dir;
   auto file = AtomicFile::create(dir.file("s.vtp"), Overwrite::refuse);
   EXPECT_TRUE(file.ok());
-  const Status status = write_state_vtp(*file, model, state);
+  const Status status = write_state_vtp(*file, {model, state});
   EXPECT_TRUE(status.ok()) << status.error().message();
   EXPECT_TRUE(file->commit().ok());
   return dir.read("s.vtp");
@@ -192,7 +192,7 @@ TEST(StateVtp, RefusesWhatIsNotFinite) {
   State state = initial_state(model, Precision::single);
   state.ball_velocity[1].y = std::numeric_limits<double>::infinity();
   auto file = AtomicFile::create(dir.file("s.vtp"), Overwrite::refuse);
-  const Status status = write_state_vtp(*file, model, state);
+  const Status status = write_state_vtp(*file, {model, state});
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().code, ErrorCode::diverged);
   EXPECT_THAT(status.error().message(), HasSubstr("ball 1"));

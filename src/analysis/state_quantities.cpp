@@ -1,0 +1,75 @@
+// Quantities of states for other programs.
+#include <cassert>
+#include <cmath>
+
+#include "analysis/particle_contact.h"
+#include "aspic/analysis.h"
+#include "model/counts.h"
+#include "model/inputs.h"
+#include "model/springs.h"
+
+namespace aspic {
+namespace {
+
+/// Strain and tension of all springs, and what they mean for their ends.
+void add_springs(const Model& model, const State& state, StateQuantities& q) {
+  std::vector<std::uint32_t> ending(model.particle_count());
+  q.mean_strain.resize(model.particle_count());
+  for (const Spring& s : springs_of(model)) {
+    const SpringClass& c = model.spring_classes[s.spring_class];
+    const Vec3 e = state.position[s.a] - state.position[s.b];
+    const double L = length(e), r = c.rest_length;
+    const bool acts = L > 0.0 && !(c.cord && L < r);
+    const double tension =
+        acts ? c.stiffness * (L - r) + c.damping * dot(state.velocity[s.a] - state.velocity[s.b], e) / L
+             : 0.0;
+    q.strain.push_back(r > 0.0 ? L / r - 1.0 : 0.0);
+    q.tension.push_back(tension);
+    for (const std::uint32_t end : {s.a, s.b}) {
+      q.mean_strain[end] += std::abs(q.strain.back());
+      ++ending[end];
+    }
+    if (tension == 0.0) continue;
+    const Vec3 on_b = (tension / L) * e;
+    q.force[s.a] = q.force[s.a] - on_b;
+    q.force[s.b] = q.force[s.b] + on_b;
+  }
+  for (std::size_t i = 0; i < ending.size(); ++i)
+    if (ending[i] > 0) q.mean_strain[i] /= ending[i];
+}
+
+}  // namespace
+
+StateQuantities quantities_of(const Model& model, const State& state, const Inputs& inputs) {
+  assert(check_sizes(model, state));
+  StateQuantities q;
+  const std::uint32_t count = model.particle_count();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    q.speed.push_back(length(state.velocity[i]));
+    q.force.push_back(model.mass[i] * model.simulation.gravity);
+  }
+  add_springs(model, state, q);
+  for (const Pull& pull : inputs.pulls) {
+    if (pull.ball) continue;
+    const Vec3 e = state.position[pull.particle] - pull.anchor;
+    const double L = length(e);
+    if (L == 0.0) continue;
+    const double strength = pull.stiffness * L + pull.damping * dot(state.velocity[pull.particle], e) / L;
+    q.force[pull.particle] = q.force[pull.particle] - (strength / L) * e;
+  }
+  q.contact_force.resize(count);
+  q.contact.resize(count);
+  for (const ParticleContact& c : contacts_of(model, SpringFinder(model), state, inputs)) {
+    q.contact[c.particle] = 1;
+    q.contact_force[c.particle] = q.contact_force[c.particle] + c.force;
+    q.force[c.particle] = q.force[c.particle] + c.force;
+  }
+  std::uint32_t i = 0;
+  for (const double w : inverse_mass_under(model, inputs)) {
+    if (w == 0.0) q.force[i] = {};  // what holds it is the opposite of all else
+    ++i;
+  }
+  return q;
+}
+
+}  // namespace aspic

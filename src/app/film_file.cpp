@@ -1,0 +1,155 @@
+#include "app/film_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/inputs.h"
+#include "page/page_writer.h"
+#include "run/comparison.h"
+
+namespace aspic::app {
+namespace {
+
+std::vector<std::uint64_t> models_of(const Comparison& comparison) {
+  std::vector<std::uint64_t> numbers;
+  for (std::size_t i = 0; i < comparison.count(); ++i)
+    numbers.push_back(comparison.run(i).present().model_number());
+  return numbers;
+}
+
+/// What a run was made of, not what the editor has since.
+Scene scene_of(const Comparison& comparison, std::size_t run) {
+  Scene scene = comparison.scene(run);
+  scene.model = comparison.run(run).present().setup().settings;
+  return scene;
+}
+
+class FilmPage final : public FilmFile {
+ public:
+  FilmPage(const Comparison& comparison, page::PageWriter writer)
+      : FilmFile(comparison), writer_(std::move(writer)) {}
+
+ private:
+  Status write(const Comparison&, const States& states) override { return writer_.add(states); }
+  Status complete_with(const States& last,
+                       const std::vector<std::optional<Divergence>>& divergences) override {
+    return writer_.finish(last, divergences);
+  }
+  std::string path() const override { return writer_.path(); }
+  std::string sentence(std::uint64_t pictures) const override {
+    return fmt::format("{} holds the same {} pictures for browsers.", path(), pictures);
+  }
+
+  page::PageWriter writer_;
+};
+
+/// What acts on a run, as its solver takes it; nothing where that would refuse it.
+Inputs inputs_of_run(const Simulation& run, Precision precision) {
+  auto inputs = rounded_inputs(run.model(), run.inputs(), precision);
+  return inputs ? std::move(*inputs) : Inputs();
+}
+
+class FilmStates final : public FilmFile {
+ public:
+  FilmStates(const Comparison& comparison, std::vector<std::unique_ptr<StateSink>> sinks)
+      : FilmFile(comparison), sinks_(std::move(sinks)), models_(sinks_.size()), inputs_(sinks_.size()) {}
+
+ private:
+  Status write(const Comparison& comparison, const States& states) override {
+    for (std::size_t i = 0; i < sinks_.size(); ++i) {
+      const Simulation& run = comparison.run(i);
+      // Kept for the end, when the run may have another.
+      models_[i] = run.present().engines().shared_model();
+      inputs_[i] = inputs_of_run(run, states[i]->precision);
+      ASPIC_CHECK(sinks_[i]->take({.model = *models_[i], .state = *states[i], .inputs = &inputs_[i]}));
+    }
+    return {};
+  }
+  Status complete_with(const States& last, const std::vector<std::optional<Divergence>>&) override {
+    for (std::size_t i = 0; i < sinks_.size(); ++i)
+      ASPIC_CHECK(sinks_[i]->finish({.model = *models_[i], .state = *last[i], .inputs = &inputs_[i]}));
+    return {};
+  }
+  std::string path() const override {
+    std::vector<std::string> paths;
+    for (const auto& sink : sinks_) paths.push_back(sink->path());
+    return fmt::format("{}", fmt::join(paths, ", "));
+  }
+  std::string sentence(std::uint64_t pictures) const override {
+    return fmt::format("{} {} the states of the film's {} pictures.", path(),
+                       sinks_.size() > 1 ? "hold" : "holds", pictures);
+  }
+
+  std::vector<std::unique_ptr<StateSink>> sinks_;  // of each run
+  std::vector<SharedModel> models_;
+  std::vector<Inputs> inputs_;
+};
+
+}  // namespace
+
+FilmFile::FilmFile(const Comparison& comparison)
+    : models_(models_of(comparison)), last_(comparison.count()), divergences_(comparison.count()) {}
+
+void FilmFile::fail(const Error& error) {
+  said_ = worded(error, FrontEnd::window);
+  failed_ = true;
+}
+
+void FilmFile::add(ComparisonView& view) {
+  const Comparison& comparison = view.comparison();
+  if (complete()) return;
+  if (models_ != models_of(comparison)) return finish();
+  States states;
+  for (std::size_t i = 0; i < comparison.count(); ++i) {
+    states.push_back(&view.picture(i).shown_state());
+    if (pictures_ > 0 && states[i]->step < last_[i].step) return finish();
+  }
+  if (const Status written = write(comparison, states); !written) {
+    // What cannot be added may still be the end of what there is.
+    return pictures_ > 0 && written.error().code == ErrorCode::usage ? finish() : fail(written.error());
+  }
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    last_[i] = *states[i];
+    divergences_[i] = comparison.shown_divergence(i);
+  }
+  ++pictures_;
+}
+
+void FilmFile::finish() {
+  if (complete()) return;
+  if (pictures_ == 0)
+    return fail({ErrorCode::io, fmt::format("{} was not written: the film has no picture.", path())});
+  States states;
+  for (const State& state : last_) states.push_back(&state);
+  if (const Status written = complete_with(states, divergences_); !written) return fail(written.error());
+  said_ = sentence(pictures_);
+}
+
+Result<std::unique_ptr<FilmFile>> start_film_page(const std::string& path, ComparisonView& view, double fps,
+                                                  double speed) {
+  const Comparison& comparison = view.comparison();
+  ASPIC_TRY(auto writer, page::PageWriter::create(path, Overwrite::refuse));
+  std::vector<Scene> scenes;
+  std::vector<page::PageRun> runs;
+  for (std::size_t i = 0; i < comparison.count(); ++i) scenes.push_back(scene_of(comparison, i));
+  for (std::size_t i = 0; i < comparison.count(); ++i)
+    runs.push_back(
+        {&scenes[i], &comparison.run(i).model(), comparison.active() ? view.name(i) : std::string()});
+  ASPIC_CHECK(writer.begin({.fps = fps, .speed = speed, .command = ""}, runs));
+  return std::unique_ptr<FilmFile>(std::make_unique<FilmPage>(comparison, std::move(writer)));
+}
+
+Result<std::unique_ptr<FilmFile>> start_film_states(const std::string& path, const StateFormat& format,
+                                                    const Comparison& comparison) {
+  std::vector<std::unique_ptr<StateSink>> sinks;
+  for (std::size_t i = 0; i < comparison.count(); ++i) {
+    const Scene scene = scene_of(comparison, i);
+    ASPIC_TRY(auto sink, format.open(comparison.active() ? numbered_path(path, i + 1) : path, 1,
+                                     Overwrite::refuse, {to_toml(scene), scene.model.simulation.integrator}));
+    sinks.push_back(std::move(sink));
+  }
+  return std::unique_ptr<FilmFile>(std::make_unique<FilmStates>(comparison, std::move(sinks)));
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,60 @@
+#pragma once
+// Files that are written next to a film, from the same states.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/comparison_view.h"
+#include "base/result.h"
+#include "io/state_sink.h"
+
+namespace aspic::app {
+
+/// A file of one setup, forward in time: where the runs become others, or one goes back, it ends by itself
+/// and the film goes on.
+class FilmFile {
+ public:
+  virtual ~FilmFile() = default;
+
+  /// Adds what the pictures show.
+  void add(ComparisonView& view);
+  bool complete() const { return !said_.empty(); }
+  /// Completes the file with the last picture.
+  void finish();
+  /// What became of it, a sentence, and whether that is bad news.
+  const std::string& said() const { return said_; }
+  bool failed() const { return failed_; }
+
+ protected:
+  explicit FilmFile(const Comparison& comparison);
+  using States = std::vector<const State*>;  // of each run
+  /// Errors: io; usage, the file cannot hold this state.
+  virtual Status write(const Comparison& comparison, const States& states) = 0;
+  virtual Status complete_with(const States& last,
+                               const std::vector<std::optional<Divergence>>& divergences) = 0;
+  virtual std::string path() const = 0;
+  /// What it holds, after so many pictures.
+  virtual std::string sentence(std::uint64_t pictures) const = 0;
+
+ private:
+  void fail(const Error& error);
+
+  std::vector<std::uint64_t> models_;  // numbers of the runs' models
+  std::vector<State> last_;            // of each run, in the file
+  std::vector<std::optional<Divergence>> divergences_;
+  std::uint64_t pictures_ = 0;
+  std::string said_;
+  bool failed_ = false;
+};
+
+/// A page for browsers of all runs as they are. Error (io).
+Result<std::unique_ptr<FilmFile>> start_film_page(const std::string& path, ComparisonView& view, double fps,
+                                                  double speed);
+/// The states in a format of motions, of runs compared each in its own, numbered as aspic run --beside does.
+/// Error (io).
+Result<std::unique_ptr<FilmFile>> start_film_states(const std::string& path, const StateFormat& format,
+                                                    const Comparison& comparison);
+
+}  // namespace aspic::app

@@ -1,0 +1,91 @@
+#include "io/export_pvd.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "base/stopwatch.h"
+#include "io/motion_sink.h"
+#include "io/numbered_files.h"
+#include "io/state_vtp.h"
+#include "model/model.h"
+
+namespace aspic {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A collection of many files is long to write: between two there is this time [s].
+constexpr double between_collections = 1.0;
+
+std::string escaped(const std::string& text) {
+  std::string xml;
+  for (const char c : text) {
+    if (c == '&' || c == '<' || c == '>' || c == '"' || static_cast<unsigned char>(c) < 0x20)
+      xml += fmt::format("&#{};", static_cast<int>(c));
+    else
+      xml += c;
+  }
+  return xml;
+}
+
+class PvdSeries final : public MotionSink {
+ public:
+  PvdSeries(const std::string& path, std::uint64_t every, Overwrite overwrite, AtomicFile file)
+      : MotionSink(path, every),
+        pattern_(with_ending(path, ".vtp")),
+        overwrite_(overwrite),
+        file_(std::move(file)) {}
+
+ private:
+  Status add(const Sample& sample) override {
+    const std::uint64_t step = sample.state.step;
+    if (samples() == 0 && overwrite_ == Overwrite::refuse) ASPIC_CHECK(refuse_later_files(pattern_, step));
+    const std::string name = numbered(pattern_, step);
+    ASPIC_TRY(auto file, AtomicFile::create(name, overwrite_));
+    ASPIC_CHECK(write_state_vtp(file, sample));
+    ASPIC_CHECK(file.commit());
+    entries_ += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
+                            static_cast<double>(step) * sample.model.simulation.timestep,
+                            escaped(std::filesystem::path(name).filename().string()));
+    if (written_ && seconds_since(*written_) < between_collections) return {};
+    return write_collection();
+  }
+  Status complete(const Sample&) override { return write_collection(); }
+
+  Status write_collection() {
+    // What is there since the first time is our own.
+    if (!file_) {
+      ASPIC_TRY(file_, AtomicFile::create(path(), written_ ? Overwrite::allow : overwrite_));
+    }
+    AtomicFile file = std::move(*file_);
+    file_.reset();
+    ASPIC_CHECK(file.write(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+        "<Collection>\n"));
+    ASPIC_CHECK(file.write(entries_));
+    ASPIC_CHECK(file.write("</Collection>\n</VTKFile>\n"));
+    ASPIC_CHECK(file.commit());
+    written_ = Clock::now();
+    return {};
+  }
+
+  std::string pattern_;  // of the samples' names
+  Overwrite overwrite_;
+  std::optional<AtomicFile> file_;
+  std::string entries_;
+  std::optional<Clock::time_point> written_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<StateSink>> open_pvd(const std::string& path, std::uint64_t every, Overwrite overwrite,
+                                            const RunFacts&) {
+  ASPIC_CHECK(check_export_name(path));
+  ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
+  return std::unique_ptr<StateSink>(std::make_unique<PvdSeries>(path, every, overwrite, std::move(file)));
+}
+
+}  // namespace aspic
