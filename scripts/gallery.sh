@@ -63,7 +63,11 @@ echo "docs/images/report.jpg" >&2
 "$aspic_build_dir/aspic" run cube-plane --view colour=strain --page "$work/page.html" >&2
 "$aspic_build_dir/aspic" run cube-plane --beside integrator=implicit-euler --beside k=8000 --page "$work/page-beside.html" >&2
 /usr/bin/python3 tests/page/shoot.py "$work/page.html" 1.36 "$work/page.png" "$work/page-beside.html" 1.5 "$work/page-beside.png"
-for picture in page page-beside; do
+"$aspic_root/scripts/wasm.sh"
+aspic_build ON aspic
+"$aspic_build_dir/aspic" run cube-plane --view colour=strain --page-live "$work/page-live.html" >&2
+/usr/bin/python3 tests/page/shoot.py "$work/page-live.html" 1.36 "$work/page-live.png"
+for picture in page page-beside page-live; do
   ffmpeg -v error -y -i "$work/$picture.png" -q:v 4 "$images/$picture.jpg"
   echo "docs/images/$picture.jpg" >&2
 done

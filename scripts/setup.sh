@@ -1,5 +1,5 @@
 # Sourced by run.sh, test.sh and package.sh: installs what is missing and builds Release. Everything it says goes to stderr.
-# Usage: source scripts/setup.sh; aspic_install run|all|package; aspic_install_packages name …; aspic_python; aspic_build ON|OFF|BENCH [ninja target …]
+# Usage: source scripts/setup.sh; aspic_install run|all|package; aspic_install_packages name …; aspic_python; aspic_wasm; aspic_build ON|OFF|BENCH [ninja target …]
 
 aspic_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 aspic_build_dir=$aspic_root/build/release
@@ -49,6 +49,11 @@ aspic_python() {
   if [ -f "$aspic_build_dir/build.ninja" ] && [ "$before" != "$(cat "$stamp" 2>/dev/null || true)" ]; then
     cmake "$aspic_build_dir" >&2
   fi
+}
+
+# aspic_wasm: the module of pages that simulate, as far as PyPI is in reach; the next build embeds it.
+aspic_wasm() {
+  "$aspic_root/scripts/wasm.sh" || true
 }
 
 # aspic_build ON|OFF|BENCH [target …]: ON has the tests built as well, BENCH also what measures. Ninja configures again by itself when a

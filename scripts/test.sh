@@ -14,7 +14,8 @@ core      each room's own tests; the gpu solvers on llvmpipe with a covering set
           models, force paths and bodies; pictures; the command line, its manual pages and completion; the Python
           package; the window's main tests
 full      core, and by label:
-  pages        pages of every built-in scene in Chromium and Firefox
+  pages        pages of every built-in scene in Chromium and Firefox; pages that simulate, with every scene and method, and the site;
+               these are skipped where scripts/wasm.sh has made no module
   products     equal bits in products of methods, terrains and paths, and for more particles
   drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads, on zink and for
                Khronos' reference compiler
@@ -60,6 +61,7 @@ fi
 
 aspic_install all
 aspic_python
+if [ "$full" = yes ]; then aspic_wasm; fi
 aspic_build ON
 ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -j "$(nproc)" "${tier[@]}" "${arguments[@]}"
 if [ "$full" = yes ] && [ "${#arguments[@]}" -eq 0 ]; then

@@ -79,8 +79,9 @@ struct StateOutput {
 
 /// Pictures of a run.
 struct PictureOutput {
-  std::string video, frames;                                  ///< file and directory; empty: none
-  std::string page;                                           ///< HTML file for browsers; empty: none
+  std::string video, frames;  ///< file and directory; empty: none
+  std::string page;           ///< HTML file for browsers; empty: none
+  std::string page_live;      ///< one that simulates the run in the browser; empty: none
   const FilmFormat* frames_format = find_film_format("png");  ///< of `frames`
   std::optional<double> fps;  ///< pictures per second shown, > 0; absent: what the formats have
   double speed = 1.0;         ///< simulated seconds per second shown, > 0
@@ -92,6 +93,7 @@ struct PictureOutput {
 
   /// Whether anything is drawn: a page is not.
   bool any() const { return !video.empty() || !frames.empty(); }
+  bool any_page() const { return !page.empty() || !page_live.empty(); }  ///< of either kind
 };
 
 /// What a page needs to know of a run before it starts.

@@ -125,6 +125,13 @@ Measures Instance::measures() {
   });
 }
 
+StateQuantities Instance::quantities() {
+  return batch_.alone([&](Contents& contents) {
+    return quantities_of(*take(contents.batch.model(number_)), take(contents.batch.state(number_)),
+                         contents.inputs[number_]);
+  });
+}
+
 std::uint64_t Instance::read_into(const StateView& view) {
   return batch_.alone([&](Contents& contents) { return take(contents.batch.read_into(number_, view)); });
 }

@@ -94,6 +94,7 @@ class Instance {
   bool doubles() const { return false; }
   State state();
   Measures measures();
+  StateQuantities quantities();
   std::uint64_t read_into(const StateView& view);
   std::optional<Divergence> divergence();
   /// With the inputs that the log has for its step. Error (usage): numbers of another model.

@@ -31,6 +31,20 @@ MeasureRow row_of(const Measures& m) {
           m.max_speed,     m.min_height};
 }
 
+QuantityArrays arrays_of(StateQuantities q) {
+  const std::size_t particles = q.speed.size(), springs = q.strain.size();
+  const auto vectors = [&](const std::vector<Vec3>& all) {
+    std::vector<double> numbers;
+    numbers.reserve(3 * all.size());
+    for (const Vec3& v : all) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+    return as_array(std::move(numbers), {particles, 3});
+  };
+  return QuantityArrays(as_array(std::move(q.speed), {particles}),
+                        as_array(std::move(q.mean_strain), {particles}), vectors(q.force),
+                        vectors(q.contact_force), as_array(std::move(q.contact), {particles}),
+                        as_array(std::move(q.strain), {springs}), as_array(std::move(q.tension), {springs}));
+}
+
 Array<double> masses(const Model& model) {
   std::vector<double> all = particle_masses(model);
   const std::size_t count = all.size();

@@ -30,6 +30,9 @@ using Indices = std::vector<std::uint32_t>;
 using InputRows = std::tuple<std::vector<PullRow>, Indices, Indices, std::vector<double>>;
 /// Kinetic, elastic, gravitational, momentum, largest speed, lowest height.
 using MeasureRow = std::tuple<double, double, double, std::tuple<double, double, double>, double, double>;
+/// Speed, mean strain, force, contact force, contact; strain, tension: in the order of _trajectory.py.
+using QuantityArrays = std::tuple<Array<double>, Array<double>, Array<double>, Array<double>,
+                                  Array<std::uint8_t>, Array<double>, Array<double>>;
 /// Ends, stiffness, damping, rest length, type, whether it is a cord: an array of each.
 using SpringArrays = std::tuple<Array<std::uint32_t>, Array<double>, Array<double>, Array<double>,
                                 Array<std::uint8_t>, Array<std::uint8_t>>;
@@ -38,6 +41,7 @@ Diverged told(const std::optional<Divergence>& divergence);
 InputRows rows_of(const Inputs& inputs);
 Inputs inputs_of_rows(const InputRows& rows);
 MeasureRow row_of(const Measures& measures);
+QuantityArrays arrays_of(StateQuantities quantities);
 Array<double> masses(const Model& model);
 Array<std::uint32_t> pinned(const Model& model);
 SpringArrays springs(const Model& model);
@@ -72,6 +76,9 @@ void bind_reading(nb::class_<T>& bound) {
       .def(
           "measures", [](T& t) { return row_of(t.measures()); },
           "Kinetic, elastic, gravitational, momentum, largest speed, lowest height.")
+      .def(
+          "quantities", [](T& t) { return arrays_of(t.quantities()); },
+          "Speed, mean strain, force, contact force and contact of particles; strain and tension of springs.")
       .def(
           "read_into",
           [](T& t, std::size_t field, const Place<float>& out) { return t.read_into(view_at(field, out)); },

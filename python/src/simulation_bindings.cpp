@@ -53,25 +53,6 @@ Diverged film(Simulation& simulation, const std::string& path, std::uint64_t ste
   return told(simulation.film({path, steps, fps, speed, {width, height}, text, overwrite}));
 }
 
-/// Speed, mean strain, force, contact force, contact; strain, tension: in the order of _trajectory.py.
-using QuantityArrays = std::tuple<Array<double>, Array<double>, Array<double>, Array<double>,
-                                  Array<std::uint8_t>, Array<double>, Array<double>>;
-
-QuantityArrays quantities(Simulation& simulation) {
-  StateQuantities q = simulation.quantities();
-  const std::size_t particles = q.speed.size(), springs = q.strain.size();
-  const auto vectors = [&](const std::vector<Vec3>& all) {
-    std::vector<double> numbers;
-    numbers.reserve(3 * all.size());
-    for (const Vec3& v : all) numbers.insert(numbers.end(), {v.x, v.y, v.z});
-    return as_array(std::move(numbers), {particles, 3});
-  };
-  return QuantityArrays(as_array(std::move(q.speed), {particles}),
-                        as_array(std::move(q.mean_strain), {particles}), vectors(q.force),
-                        vectors(q.contact_force), as_array(std::move(q.contact), {particles}),
-                        as_array(std::move(q.strain), {springs}), as_array(std::move(q.tension), {springs}));
-}
-
 InputLog parsed(Simulation& simulation, const std::string& text, const std::string& name) {
   const Scene scene = simulation.scene();
   return take(parse_inputs(text, name, {scene.model, *simulation.model()}));
@@ -114,9 +95,6 @@ void bind_simulation(nb::module_& module) {
       .def(
           "advance", [](Simulation& s, std::uint64_t steps) { return told(s.advance(steps)); },
           nb::arg("steps"), "Steps; what diverged.")
-      .def(
-          "quantities", &quantities,
-          "Speed, mean strain, force, contact force and contact of particles; strain and tension of springs.")
       .def("compare", &Simulation::compare, nb::arg("other"), nb::arg("steps"),
            "The first step that differs.")
       .def("view", &view, nb::arg("field"), "A field in the solver's memory; None on a device.")

@@ -40,6 +40,10 @@ def height(run: aspic.Trajectory) -> float:
     return float(run["centre-of-mass"][-1, 1])
 
 
+def stretched(run: aspic.Trajectory) -> float:
+    return float(np.abs(run["strain"]).max())
+
+
 def test_every_row_is_the_run_of_its_values(scene: aspic.Scene) -> None:
     table = aspic.sweep(
         scene,
@@ -69,18 +73,19 @@ def test_every_row_is_the_run_of_its_values(scene: aspic.Scene) -> None:
 def test_batches_processes_threads_and_one_by_one_give_one_table(scene: aspic.Scene) -> None:
     scene["simulation.duration"] = 0.3
     vary = {"k": np.linspace(500, 5000, 9), "h": [0.001, 0.002, 0.02]}
-    complete = aspic.sweep(scene, vary, {"up": height}, every=0.03)
+    metrics = {"up": height, "strain": stretched}
+    complete = aspic.sweep(scene, vary, metrics, every=0.03)
     assert set(complete["solver"]) == {"batch"} and complete["outcome"].count("diverged") >= 1
-    alone = aspic.sweep(scene, vary, {"up": height}, every=0.03, batch=1, backend="cpu")
+    alone = aspic.sweep(scene, vary, metrics, every=0.03, batch=1, backend="cpu")
     assert set(alone["solver"]) == {"cpu"}
-    for name in ("k", "h", "outcome", "reason", "steps", "hash", "up", "squash", "rest_time", "slide"):
+    for name in ("k", "h", "outcome", "reason", "steps", "hash", "up", "strain", "squash", "rest_time", "slide"):
         assert complete[name] == alone[name], name
-    reference = aspic.sweep(scene, vary, {"up": height}, every=0.03, backend="reference")
+    reference = aspic.sweep(scene, vary, metrics, every=0.03, backend="reference")
     assert [*reference["hash"], *reference["reason"]] == [*complete["hash"], *complete["reason"]]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        threads = aspic.sweep(scene, vary, {"up": height}, executor=pool, every=0.03, out="runs")
+        threads = aspic.sweep(scene, vary, metrics, executor=pool, every=0.03, out="runs")
     assert same(threads) == same(complete)
-    processes = aspic.sweep(scene, vary, {"up": height}, executor="processes", every=0.03, workers=2)
+    processes = aspic.sweep(scene, vary, metrics, executor="processes", every=0.03, workers=2)
     assert same(processes) == same(complete)
 
 

@@ -79,10 +79,13 @@ void Film::start_files() {
   files_.clear();
   std::filesystem::path named(recording_->options().path);
   if (find_film_format(named.extension().string())) named.replace_extension();
-  if (settings.page)
-    keep(start_film_page(named.string() + ".html", comparison_view_, recording_->options().fps,
-                         simulation_.pacer().speed()),
-         "a page");
+  for (const bool live : {false, true}) {
+    if (!(live ? settings.live : settings.page)) continue;
+    keep(start_film_page(
+             named.string() + (live ? "-live.html" : ".html"), comparison_view_,
+             {.fps = recording_->options().fps, .speed = simulation_.pacer().speed(), .live = live}),
+         "this page");
+  }
   if (settings.states)
     keep(start_film_states(named.string() + std::string(settings.states->ending), *settings.states,
                            comparison_),

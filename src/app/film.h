@@ -27,6 +27,7 @@ struct FilmSettings {
   bool text = true;                     ///< the parameters are written on the picture
   std::string path;                     ///< empty: free_name()
   bool page = false;                    ///< a page for browsers is written next to it
+  bool live = false;                    ///< and one that simulates there
   const StateFormat* states = nullptr;  ///< of its states next to it; null: none
 };
 

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 
+#include "base/result.h"
 #include "model/inputs.h"
-#include "page/page_writer.h"
+#include "page/live_facts.h"
 #include "run/comparison.h"
 
 namespace aspic::app {
@@ -25,12 +26,27 @@ Scene scene_of(const Comparison& comparison, std::size_t run) {
   return scene;
 }
 
+/// Whether hands have a part in what the first run does: pulls, pins, balls that were thrown.
+bool has_hands(const Comparison& comparison) {
+  const Simulation& run = comparison.run(0);
+  const Setup& setup = run.present().setup();
+  return !setup.thrown.empty() || !setup.pinned.empty() || !run.inputs().empty();
+}
+
+Status check_live(ComparisonView& view) {
+  const Comparison& comparison = view.comparison();
+  if (comparison.active()) return fail(ErrorCode::usage, "a live page has one run, and there are several.");
+  return page::check_live(view.picture(0).shown_state().precision,
+                          comparison.run(0).present().engines().leader().arithmetic, has_hands(comparison));
+}
+
 class FilmPage final : public FilmFile {
  public:
-  FilmPage(const Comparison& comparison, page::PageWriter writer)
-      : FilmFile(comparison), writer_(std::move(writer)) {}
+  FilmPage(const Comparison& comparison, page::PageWriter writer, bool live)
+      : FilmFile(comparison), writer_(std::move(writer)), live_(live) {}
 
  private:
+  bool goes_on(const Comparison& comparison) const override { return !live_ || !has_hands(comparison); }
   Status write(const Comparison&, const States& states) override { return writer_.add(states); }
   Status complete_with(const States& last,
                        const std::vector<std::optional<Divergence>>& divergences) override {
@@ -38,10 +54,12 @@ class FilmPage final : public FilmFile {
   }
   std::string path() const override { return writer_.path(); }
   std::string sentence(std::uint64_t pictures) const override {
-    return fmt::format("{} holds the same {} pictures for browsers.", path(), pictures);
+    return live_ ? fmt::format("{} simulates the same in browsers.", path())
+                 : fmt::format("{} holds the same {} pictures for browsers.", path(), pictures);
   }
 
   page::PageWriter writer_;
+  bool live_;
 };
 
 /// What acts on a run, as its solver takes it; nothing where that would refuse it.
@@ -99,7 +117,7 @@ void FilmFile::fail(const Error& error) {
 void FilmFile::add(ComparisonView& view) {
   const Comparison& comparison = view.comparison();
   if (complete()) return;
-  if (models_ != models_of(comparison)) return finish();
+  if (models_ != models_of(comparison) || !goes_on(comparison)) return finish();
   States states;
   for (std::size_t i = 0; i < comparison.count(); ++i) {
     states.push_back(&view.picture(i).shown_state());
@@ -126,9 +144,10 @@ void FilmFile::finish() {
   said_ = sentence(pictures_);
 }
 
-Result<std::unique_ptr<FilmFile>> start_film_page(const std::string& path, ComparisonView& view, double fps,
-                                                  double speed) {
+Result<std::unique_ptr<FilmFile>> start_film_page(const std::string& path, ComparisonView& view,
+                                                  page::PageSettings settings) {
   const Comparison& comparison = view.comparison();
+  if (settings.live) ASPIC_CHECK(check_live(view));
   ASPIC_TRY(auto writer, page::PageWriter::create(path, Overwrite::refuse));
   std::vector<Scene> scenes;
   std::vector<page::PageRun> runs;
@@ -136,8 +155,8 @@ Result<std::unique_ptr<FilmFile>> start_film_page(const std::string& path, Compa
   for (std::size_t i = 0; i < comparison.count(); ++i)
     runs.push_back(
         {&scenes[i], &comparison.run(i).model(), comparison.active() ? view.name(i) : std::string()});
-  ASPIC_CHECK(writer.begin({.fps = fps, .speed = speed, .command = ""}, runs));
-  return std::unique_ptr<FilmFile>(std::make_unique<FilmPage>(comparison, std::move(writer)));
+  ASPIC_CHECK(writer.begin(settings, runs));
+  return std::unique_ptr<FilmFile>(std::make_unique<FilmPage>(comparison, std::move(writer), settings.live));
 }
 
 Result<std::unique_ptr<FilmFile>> start_film_states(const std::string& path, const StateFormat& format,

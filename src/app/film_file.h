@@ -9,6 +9,7 @@
 #include "app/comparison_view.h"
 #include "base/result.h"
 #include "io/state_sink.h"
+#include "page/page_writer.h"
 
 namespace aspic::app {
 
@@ -30,6 +31,8 @@ class FilmFile {
  protected:
   explicit FilmFile(const Comparison& comparison);
   using States = std::vector<const State*>;  // of each run
+  /// Whether the file can go on with what the runs are now.
+  virtual bool goes_on(const Comparison&) const { return true; }
   /// Errors: io; usage, the file cannot hold this state.
   virtual Status write(const Comparison& comparison, const States& states) = 0;
   virtual Status complete_with(const States& last,
@@ -49,9 +52,10 @@ class FilmFile {
   bool failed_ = false;
 };
 
-/// A page for browsers of all runs as they are. Error (io).
-Result<std::unique_ptr<FilmFile>> start_film_page(const std::string& path, ComparisonView& view, double fps,
-                                                  double speed);
+/// A page for browsers of all runs as they are; `settings` have no command. A live page ends where a hand
+/// pulls. Errors: io; of a live page also check_live(), usage: there are several runs.
+Result<std::unique_ptr<FilmFile>> start_film_page(const std::string& path, ComparisonView& view,
+                                                  page::PageSettings settings);
 /// The states in a format of motions, of runs compared each in its own, numbered as aspic run --beside does.
 /// Error (io).
 Result<std::unique_ptr<FilmFile>> start_film_states(const std::string& path, const StateFormat& format,

@@ -205,6 +205,11 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
             "to be turned "
             "and played there, as aspic run --page writes it. It ends where the model becomes another, or "
             "the run goes back.");
+  label_column("Live page");
+  check_box(gui, "simulates", "record/live", film.settings.live,
+            "Writes a page that simulates what is filmed in the browser, with sliders, as aspic run "
+            "--page-live writes it, and compares its bits with those of this machine. It ends where a hand "
+            "pulls, too.");
   states_widget(gui, film.settings);
   if (film.completing() > 0) ImGui::TextDisabled("Completing the last film …");
 }

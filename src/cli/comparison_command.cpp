@@ -45,6 +45,9 @@ using HeadlessVariants = std::vector<std::unique_ptr<HeadlessVariant>>;
 Status refuse_what_needs_one_run(const RunOptions& options) {
   if (!options.resume_file.empty())
     return fail(ErrorCode::usage, "--beside starts every run at the scene's start: omit --resume.");
+  if (!options.pictures.page_live.empty())
+    return fail(ErrorCode::usage,
+                "a live page has one run: omit --beside, or write --page in place of --page-live.");
   for (const StateOutput& output : options.outputs)
     if (output.path.starts_with("/dev/"))
       return fail(ErrorCode::usage,

@@ -18,6 +18,7 @@
 #include "io/program.h"
 #include "model/inputs.h"
 #include "model/springs.h"
+#include "page/live_facts.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
 
@@ -185,6 +186,11 @@ Status execute(const RunOptions& options) {
   ASPIC_TRY(const InputLog inputs, inputs_of_run(options, start, model));
   const RunFacts facts = {start.scene_toml, start.scene.model.simulation.integrator,
                           inputs.empty() ? "" : to_toml(inputs, model.simulation.timestep)};
+  if (!options.pictures.page_live.empty()) {
+    const Precision precision = start.state ? start.state->precision : options.backend.precision;
+    if (const Status live = page::check_live(precision, options.backend.arithmetic, !inputs.empty()); !live)
+      return fail(live.error(), "--page-live: {}", live.error().what);
+  }
   const PageFacts page = {&start.scene, first_step, steps, command_of(options.words)};
   ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.pictures, facts,
                                        options.force ? Overwrite::allow : Overwrite::refuse, page));

@@ -91,6 +91,8 @@ void add_pictures(CLI::App* c, RunOptions& run, RawOptions& raw) {
   add(c, "--frames", "DIR", pictures.frames, "write numbered pictures into a directory");
   add(c, "--page", "FILE", pictures.page,
       "write a page for browsers (.html): orbit, play, colours, energies; with --beside all runs in one");
+  add(c, "--page-live", "FILE", pictures.page_live,
+      "the same, but the browser simulates, with sliders, and compares its bits with this run's");
   add(c, "--frames-format", "NAME", raw.frames_format, film_endings(true));
   add(c, "--fps", "F", pictures.fps, "pictures per second shown; default 60, for a GIF 50");
   add(c, "--speed", "X", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion");

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <new>
 #include <utility>
 
+#include "base/out_of_memory.h"
 #include "base/result.h"
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
@@ -187,15 +187,16 @@ template std::unique_ptr<Solver> solver_with(const KindRow<double>&, SharedModel
 }  // namespace reference
 
 Result<std::unique_ptr<Solver>> make_reference_solver(SharedModel model, Precision precision) {
-  try {
+  const auto made = [&]() -> Result<std::unique_ptr<Solver>> {
     if (precision == Precision::single) return solver_with(reference::kind_of<float>(*model), model);
     return solver_with(reference::kind_of<double>(*model), model);
-  } catch (const std::bad_alloc&) {
+  };
+  return unless_out_of_memory(made, [&]() -> Result<std::unique_ptr<Solver>> {
     return fail(
         ErrorCode::scene_rejected,
         "no memory left for the reference solver of {} particles ({} bytes): use fewer particles-per-edge",
         model->particle_count(), reference_bytes(*model, precision));
-  }
+  });
 }
 
 std::uint64_t reference_bytes(const Model& model, Precision precision) {

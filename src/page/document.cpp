@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/base64.h"
 #include "base/embedded_file.h"
 #include "gpu/shader_source.h"
 
@@ -16,9 +17,10 @@ namespace aspic::page {
 namespace {
 
 /// The program's parts, each after what it uses.
-constexpr std::string_view scripts[] = {"maths.js",  "data.js",   "springs.js",  "shapes.js",
-                                        "gl.js",     "bodies.js", "drawing.js",  "camera.js",
-                                        "player.js", "plot.js",   "controls.js", "main.js"};
+constexpr std::string_view scripts[] = {"maths.js",    "data.js",    "springs.js",    "shapes.js", "gl.js",
+                                        "bodies.js",   "drawing.js", "camera.js",     "player.js", "plot.js",
+                                        "controls.js", "live.js",    "live_panel.js", "main.js"};
+constexpr std::string_view of_live_pages = "live";  // begins the names of parts that only those have
 
 std::string_view text_of(std::span<const EmbeddedFile> files, std::string_view name) {
   return find_embedded(files, name).value();
@@ -54,11 +56,11 @@ Json shaders() {
 }
 
 /// The document without what is filled in, in the parts between.
-std::array<std::string_view, 4> parts() {
-  std::array<std::string_view, 4> found;
+std::array<std::string_view, 5> parts() {
+  std::array<std::string_view, 5> found;
   std::string_view rest = text_of(page_files(), "page.html");
   std::size_t i = 0;
-  for (const std::string_view mark : {"@TITLE@", "@STYLE@", "@SCRIPT@"}) {
+  for (const std::string_view mark : {"@POLICY@", "@TITLE@", "@STYLE@", "@SCRIPT@"}) {
     const std::size_t at = rest.find(mark);
     found[i++] = rest.substr(0, at);
     rest.remove_prefix(at + mark.size());
@@ -71,21 +73,28 @@ constexpr std::string_view data_opening = "<script type=\"text/plain\" id=\"data
 
 }  // namespace
 
-std::string document_head(const std::string& title, const Json& facts) {
-  const auto [begin, before_style, before_script, end] = parts();
+std::string document_head(const std::string& title, const Json& facts, bool live) {
+  const auto [begin, after_policy, before_style, before_script, end] = parts();
   return fmt::format(
-      "{}{}{}{}{}<script type=\"application/json\" id=\"facts\">{}</script>\n"
+      "{}{}{}{}{}{}{}<script type=\"application/json\" id=\"facts\">{}</script>\n"
       "<script type=\"application/json\" id=\"shaders\">{}</script>\n{}",
-      begin, escaped(title), before_style, text_of(page_files(), "page.css"), before_script,
-      within_script(facts), within_script(shaders()), data_opening);
+      begin, live ? " 'wasm-unsafe-eval'; worker-src blob:" : "", after_policy, escaped(title), before_style,
+      text_of(page_files(), "page.css"), before_script, within_script(facts), within_script(shaders()),
+      data_opening);
 }
 
-std::string document_tail(const Json& ends) {
-  std::string text = fmt::format(
-      "</script>\n<script type=\"application/json\" id=\"ends\">{}</script>\n<script>\n\"use strict\";\n",
-      within_script(ends));
-  for (const std::string_view name : scripts) text += text_of(page_files(), name);
-  return text + "</script>" + std::string(parts()[3]);
+std::string document_tail(const Json& ends, std::string_view module) {
+  std::string text = fmt::format("</script>\n<script type=\"application/json\" id=\"ends\">{}</script>\n",
+                                 within_script(ends));
+  if (!module.empty())
+    text += fmt::format(
+        "<script type=\"text/plain\" id=\"module\">{}</script>\n"
+        "<script type=\"text/plain\" id=\"worker\">{}</script>\n",
+        base64(module), text_of(page_files(), "live_worker.js"));
+  text += "<script>\n\"use strict\";\n";
+  for (const std::string_view name : scripts)
+    if (!module.empty() || !name.starts_with(of_live_pages)) text += text_of(page_files(), name);
+  return text + "</script>" + std::string(parts().back());
 }
 
 }  // namespace aspic::page

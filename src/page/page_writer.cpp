@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include "model/counts.h"
 #include "page/document.h"
 #include "page/facts.h"
+#include "page/live_facts.h"
 
 namespace aspic::page {
 namespace {
@@ -33,18 +35,19 @@ Json rounded_list(const std::vector<double>& values) {
 
 }  // namespace
 
-Status check_page(std::uint64_t pictures, std::uint64_t positions_each, double fps) {
+Status check_page(std::uint64_t pictures, std::uint64_t positions_each, double fps, bool live) {
+  if (live) positions_each *= 2;
   if (positions_each == 0 || pictures <= most_positions / positions_each) return {};
   const double share = static_cast<double>(most_positions) / static_cast<double>(positions_each) /
                        static_cast<double>(pictures);
   const double fitting = fps * share >= 1.0 ? std::floor(fps * share) : rounded(0.9 * fps * share);
   return advised(
       fail(ErrorCode::usage,
-           "a page of {} pictures of {} particles and balls would hold {:.0f} million positions, of which "
+           "a page of {} pictures of {} particles and balls would hold {:.0f} million positions{}, of which "
            "a browser holds {} million.",
-           pictures, positions_each,
+           pictures, live ? positions_each / 2 : positions_each,
            static_cast<double>(pictures) * static_cast<double>(positions_each) * 1e-6,
-           most_positions / 1000000),
+           live ? " and velocities" : "", most_positions / 1000000),
       {{RemedyKind::lower_fps, {fmt::format("{:g}", fitting)}},
        {RemedyKind::shorten},
        advice("use fewer particles")});
@@ -96,6 +99,11 @@ Status PageWriter::begin(const PageSettings& settings, std::span<const PageRun> 
                 {"speed", settings.speed},
                 {"view", view_facts(scene)},
                 {"runs", Json::array()}};
+  if (settings.live) {
+    ASPIC_TRY(module_, live_module());
+    facts["live"] = live_facts(scene);
+    if (settings.last_step) facts["live"]["lastStep"] = *settings.last_step;
+  }
   std::string bytes;
   for (const PageRun& run : runs) {
     const Model& model = *run.model;
@@ -111,7 +119,7 @@ Status PageWriter::begin(const PageSettings& settings, std::span<const PageRun> 
                        {}});
     models_.push_back(&model);
   }
-  ASPIC_CHECK(write(document_head(printable_line(scene.name), facts)));
+  ASPIC_CHECK(write(document_head(printable_line(scene.name), facts, settings.live)));
   return pack(deflater_.add(bytes), false);
 }
 
@@ -120,6 +128,7 @@ Status PageWriter::add(std::span<const State* const> states) {
   for (std::size_t i = 0; i < states.size(); ++i)
     went_on = went_on || tracks_[i].steps.empty() || tracks_[i].steps.back() != states[i]->step;
   if (!went_on) return {};
+  if (!module_.empty()) return add_live(*states.front());
   std::string bytes;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const State& state = *states[i];
@@ -140,6 +149,25 @@ Status PageWriter::add(std::span<const State* const> states) {
   return pack(deflater_.add(bytes), false);
 }
 
+/// A live page compares hashes; a start that is not the scene's it has to the bit.
+Status PageWriter::add_live(const State& state) {
+  Tracks& tracks = tracks_.front();
+  std::string bytes;
+  if (tracks.steps.empty() &&
+      state_hash(state) != state_hash(initial_state(*models_.front(), state.precision))) {
+    starts_ = true;
+    for (const StateField& field : state_fields)
+      for (const Vec3& v : state.*field.vectors)
+        for (const double component : {v.x, v.y, v.z}) {
+          const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(component));
+          for (int byte = 0; byte < 4; ++byte) bytes += static_cast<char>(bits >> (8 * byte) & 255u);
+        }
+  }
+  tracks.steps.push_back(state.step);
+  tracks.hashes.push_back(state_hash_text(state));
+  return pack(deflater_.add(bytes), false);
+}
+
 Status PageWriter::finish(std::span<const State* const> states,
                           std::span<const std::optional<Divergence>> divergences) {
   ASPIC_CHECK(pack(deflater_.finish(), true));
@@ -148,16 +176,21 @@ Status PageWriter::finish(std::span<const State* const> states,
     const Tracks& tracks = tracks_[i];
     Json end = {{"hash", state_hash_text(*states[i])},
                 {"precision", name_of(states[i]->precision)},
-                {"steps", tracks.steps},
-                {"kinetic", rounded_list(tracks.kinetic)},
-                {"elastic", rounded_list(tracks.elastic)},
-                {"gravitational", rounded_list(tracks.gravitational)}};
+                {"steps", tracks.steps}};
+    if (module_.empty()) {
+      end["kinetic"] = rounded_list(tracks.kinetic);
+      end["elastic"] = rounded_list(tracks.elastic);
+      end["gravitational"] = rounded_list(tracks.gravitational);
+    } else {
+      end["hashes"] = tracks.hashes;
+      end["starts"] = starts_;
+    }
     if (divergences[i])
       end["diverged"] = fmt::format("diverged in step {}: {} {}", divergences[i]->step,
                                     body_text(*divergences[i]), fault_text(*divergences[i]));
     ends.push_back(std::move(end));
   }
-  ASPIC_CHECK(write(document_tail(ends)));
+  ASPIC_CHECK(write(document_tail(ends, module_)));
   return file_.commit();
 }
 
@@ -212,9 +245,11 @@ Result<std::unique_ptr<StateSink>> open_page(const std::string& path, Overwrite 
                                settings.speed);
   const ModelCounts counts = predict_counts(scene.model);
   ASPIC_CHECK(check_page(std::min(schedule.count(), last_step - first_step + 1),
-                         counts.particles + counts.balls, settings.fps));
+                         counts.particles + counts.balls, settings.fps, settings.live));
   ASPIC_TRY(auto writer, PageWriter::create(path, overwrite));
-  return std::unique_ptr<StateSink>(std::make_unique<PageSink>(std::move(writer), scene, settings, schedule));
+  PageSettings planned = settings;
+  planned.last_step = last_step;
+  return std::unique_ptr<StateSink>(std::make_unique<PageSink>(std::move(writer), scene, planned, schedule));
 }
 
 }  // namespace aspic::page

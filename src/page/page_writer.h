@@ -22,6 +22,10 @@ struct PageSettings {
   double fps = 60.0;         ///< pictures per second shown at the speed below, > 0
   double speed = 1.0;        ///< simulated seconds per second shown when it opens, > 0
   std::string command = {};  ///< that writes it again; empty: none does
+  /// It holds no pictures but the keys of its one scene, and computes them in the browser (live_facts.h). The
+  /// first state that is added is where it starts; of the others it holds the hashes, to compare with.
+  bool live = false;
+  std::optional<std::uint64_t> last_step = {};  ///< of a live run, as planned; absent: its last state's
 };
 
 /// A run of a page; scene and model must live until begin() has returned.
@@ -36,9 +40,9 @@ inline constexpr std::uint64_t most_positions = 50000000;
 /// Characters of a page at most.
 inline constexpr std::uint64_t most_characters = 256u << 20;
 
-/// Whether so many pictures of so many particles and balls fit into a page. Error (usage) with both figures
-/// and the `fps` that would.
-Status check_page(std::uint64_t pictures, std::uint64_t positions_each, double fps);
+/// Whether so many pictures of so many particles and balls fit into a page; one that is live keeps velocities
+/// too. Error (usage) with both figures and the `fps` that would.
+Status check_page(std::uint64_t pictures, std::uint64_t positions_each, double fps, bool live = false);
 
 /// Whether a file's name can be a page's: it ends in .html or .htm, or in nothing. Error (usage).
 Status check_page_name(const std::string& path);
@@ -49,7 +53,8 @@ class PageWriter {
   static Result<PageWriter> create(const std::string& path, Overwrite overwrite);
   const std::string& path() const { return file_.path(); }
 
-  /// Writes everything that is known before the first picture; at least one run. Error (io).
+  /// Writes everything that is known before the first picture; at least one run, of a live page one. Error
+  /// (io); live_module().
   Status begin(const PageSettings& settings, std::span<const PageRun> runs);
   bool begun() const { return !models_.empty(); }
   /// Adds a picture: a state of each run, whose models must still live. One in which no run went on since the
@@ -67,7 +72,9 @@ class PageWriter {
     Track particles, balls, spins;
     std::vector<double> kinetic, elastic, gravitational;  // [J], by picture
     std::vector<std::uint64_t> steps;
+    std::vector<std::string> hashes = {};  // of a live page
   };
+  Status add_live(const State& state);
   PageWriter(AtomicFile file, Deflater deflater) : file_(std::move(file)), deflater_(std::move(deflater)) {}
   Status write(std::string_view text);
   Status pack(const Result<std::string>& bytes, bool last);
@@ -76,7 +83,9 @@ class PageWriter {
   Deflater deflater_;
   std::vector<const Model*> models_;
   std::vector<Tracks> tracks_;
-  std::string rest_;  // bytes that do not fill a group of base64 yet
+  std::string_view module_ = {};  // of a live page
+  bool starts_ = false;           // elsewhere than the scene does
+  std::string rest_;              // bytes that do not fill a group of base64 yet
   std::uint64_t characters_ = 0, positions_ = 0;
 };
 

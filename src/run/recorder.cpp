@@ -31,7 +31,7 @@ Result<PictureContext> picture_context(const Backend& backend) {
 
 Status check_pictures(const PictureOutput& output, double timestep, std::uint64_t first_step,
                       std::uint64_t last_step) {
-  if (!output.any() && output.page.empty()) return {};
+  if (!output.any() && !output.any_page()) return {};
   const double fps = frames_per_second(output);
   if (FrameSchedule(timestep, first_step, last_step, fps, output.speed).count() <= most_pictures) return {};
   // As many pictures as there may be take this many seconds each, and a little for rounding below.

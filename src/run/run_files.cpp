@@ -17,8 +17,8 @@ namespace aspic {
 namespace {
 
 Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOutput& pictures) {
-  std::vector<std::pair<std::string, std::string>> files = {{"video", pictures.video},
-                                                            {"page", pictures.page}};
+  std::vector<std::pair<std::string, std::string>> files = {
+      {"video", pictures.video}, {"page", pictures.page}, {"live page", pictures.page_live}};
   for (const StateOutput& output : states) {
     files.emplace_back(output.option, output.path);
     if (output.path.empty()) continue;
@@ -90,10 +90,12 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
               format.open(output.path, output.every.value_or(format.default_every), overwrite, facts));
     files->outputs.push_back({std::move(sink)});
   }
-  if (page.scene && !pictures.page.empty()) {
-    const page::PageSettings settings = {frames_per_second(pictures), pictures.speed, page.command};
-    ASPIC_TRY(auto sink, page::open_page(pictures.page, overwrite, *page.scene, settings, page.first_step,
-                                         page.last_step));
+  for (const std::string* const path : {&pictures.page, &pictures.page_live}) {
+    if (!page.scene || path->empty()) continue;
+    const page::PageSettings settings = {frames_per_second(pictures), pictures.speed, page.command,
+                                         path == &pictures.page_live};
+    ASPIC_TRY(auto sink,
+              page::open_page(*path, overwrite, *page.scene, settings, page.first_step, page.last_step));
     files->outputs.push_back({std::move(sink)});
   }
   const auto add = [&](const FilmFormat& format, const std::string& path) -> Status {

@@ -14,6 +14,7 @@
 #include "cpu_reference/reference_solver.h"
 #include "io/atomic_file.h"
 #include "io/state_sink.h"
+#include "page/live_facts.h"
 #include "page/page_reader.h"
 #include "support/environment.h"
 
@@ -129,6 +130,34 @@ TEST_F(Film, APageOfItsStatesIsWrittenNextToIt) {
   film_with_page("reference");
 }
 
+TEST_F(Film, APageThatSimulatesIsWrittenNextToItUntilAHandPulls) {
+  if (const auto module = page::live_module(); !module) GTEST_SKIP() << module.error().message();
+  open_small("reference");
+  app().film.settings = {find_film_format("png"), 50.0, true, "live", false, true};
+  press(GLFW_KEY_SPACE);
+  app().film.start();
+  frames_to_pictures(4);
+  EXPECT_FALSE(exists("live-live.html"));
+  app().hands.begin_pull(0, {});
+  frames_to_pictures(8);
+  EXPECT_TRUE(exists("live-live.html"));
+  end_film();
+  EXPECT_FALSE(exists("live.html"));
+  const ReadPage page = read_page(file("live-live.html"));
+  ASSERT_EQ(page.error, "");
+  EXPECT_EQ(page.start, "");  // it is the scene's
+  const Scene scene =
+      load_scene("cube-plane", std::vector<std::string>{"cube[0].particles-per-edge=4"}).value();
+  auto solver = make_reference_solver(build_model(scene.model).value(), Precision::single).value();
+  const auto &steps = page.ends[0]["steps"], &hashes = page.ends[0]["hashes"];
+  ASSERT_GE(steps.size(), 4u);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_EQ(steps[i], 20 * i);
+    EXPECT_EQ(hashes[i], state_hash_text(solver->state().value()));
+    ASSERT_TRUE(solver->advance(20).ok());
+  }
+}
+
 TEST_F(Film, APageOfStatesOnTheDevice) {
   film_with_page("gpu");
 }
@@ -148,7 +177,7 @@ TEST_F(Film, ItsStatesAreWrittenNextToIt) {
     if (!format.motion) continue;
     press(GLFW_KEY_R);
     const std::string name = "with" + std::string(format.ending.substr(1));
-    app().film.settings = {find_film_format("png"), 50.0, true, name, false, &format};
+    app().film.settings = {find_film_format("png"), 50.0, true, name, false, false, &format};
     app().film.start();
     frames_to_pictures(4);
     // Back in time: the states end there, and the film goes on.

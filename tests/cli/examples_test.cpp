@@ -40,6 +40,7 @@ constexpr Exclusion exclusions[] = {
     {"--peer", "needs other programs, which scripts/peers.sh installs"},
     {"docs/performance.md", "measures, for minutes to hours"},
     {"--thorough", "measures for minutes"},
+    {"--page-live", "needs the module of scripts/wasm.sh; tests/page runs it"},
     {"GALLIUM_DRIVER=zink", "needs a second driver, which the tests of zink ask for"},
 };
 

@@ -54,6 +54,7 @@ class Numbers {
  public:
   explicit Numbers(std::string bytes) : bytes_(std::move(bytes)) {}
   bool complete() const { return at_ == bytes_.size(); }
+  std::string rest() { return bytes_.substr(std::exchange(at_, bytes_.size())); }
   std::vector<std::int64_t> next(std::size_t count) {
     const std::size_t planes = at_ < bytes_.size() ? static_cast<unsigned char>(bytes_[at_++]) : 0;
     std::vector<std::int64_t> numbers(count);
@@ -122,6 +123,10 @@ ReadPage read_page(const std::string& html) {
     }
     runs.push_back({Places{run["particles"], run["quantum"]}, Places{run["balls"].size(), run["ballQuantum"]},
                     Places{run["balls"].size(), run["spinQuantum"]}});
+  }
+  if (page.facts.contains("live")) {
+    page.start = numbers.rest();
+    page.module = inflated(from_base64(element(html, "module")), page.error);
   }
   while (page.error.empty() && !numbers.complete()) {
     std::vector<ReadPicture> picture;

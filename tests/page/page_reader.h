@@ -17,6 +17,7 @@ struct ReadPicture {
 struct ReadPage {
   nlohmann::json facts, ends;
   std::vector<std::vector<ReadPicture>> pictures;  ///< by picture, by run
+  std::string start, module;                       ///< of a live page: the state's bytes; WebAssembly
   std::string error;                               ///< what is wrong with the file; empty: nothing
 };
 

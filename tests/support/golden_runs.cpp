@@ -76,12 +76,13 @@ GoldenRun golden_run(const std::string& builtin_scene, ContactModel contact, Int
   settings.simulation.integrator = method;
   settings.contact.model = contact;
   const std::uint64_t steps = steps_for(settings, method);
-  const auto model = [settings = std::move(settings)] {
+  const auto set_down_settings = [settings = std::move(settings)] {
     ModelSettings near = settings;
     set_down(near, 0.01);
-    return build(near);
+    return near;
   };
-  return {fmt::format("{}, {}", builtin_scene, name_of(contact)), method, steps, model};
+  return {fmt::format("{}, {}", builtin_scene, name_of(contact)), method, steps,
+          [set_down_settings] { return build(set_down_settings()); }, set_down_settings};
 }
 
 std::vector<GoldenRun> scene_runs() {

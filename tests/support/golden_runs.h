@@ -23,6 +23,7 @@ struct GoldenRun {
   Integrator method;
   std::uint64_t steps;
   std::function<Model()> model;
+  std::function<ModelSettings()> settings = {};  ///< of built-in scenes; else empty
 };
 
 GoldenRun golden_run(const EqualityCase& row);

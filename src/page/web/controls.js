@@ -70,6 +70,7 @@ function keyTable({ player, camera, look, setColour, setLook, press }) {
     ...colours.map((colour, i) => [String(i + 1), String(i + 1), `colours: ${colour.replace("-", " ")}`, () => setColour(colour)]),
     ...($("copy").hidden ? [] : [["c", "C", "copy the command", () => press("copy")]]),
     ["t", "T", "light or dark", () => press("theme")],
+    ...($("live").hidden ? [] : [["n", "N", "restart with the values that are set", () => press("restart")]]),
     ["?", "?", "this list", () => press("help")],
   ];
 }
@@ -80,6 +81,7 @@ function watchKeys(table, changed) {
     const { target, key } = event;
     if ($("keys").open && key !== "?") return;
     // The elements' own keys come first.
+    if (target.matches("input[type=text]")) return;
     if (target.matches("select, input[type=range]") && (key.startsWith("Arrow") || key === "Home" || key === "End")) return;
     if (key === " " && target.matches("button, input, summary, select, a")) return;
     const row = table.find(([own]) => own === (key.length === 1 ? key.toLowerCase() : key) || (own === "+" && key === "="));

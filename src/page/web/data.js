@@ -128,12 +128,18 @@ class Recording {
     const ends = jsonOf("ends"), element = document.getElementById("data");
     this.data = new Inflated(bytesOf(element.textContent));
     element.remove();
-    this.runs = this.facts.runs.map((facts, i) => new Run(facts, ends[i]));
+    this.runs = this.facts.runs.map((facts, i) => this.makeRun(facts, ends[i]));
     const pictures = ends[0].steps.length;
     this.times = Array.from({ length: pictures }, (_, f) => Math.max(...this.runs.map((run) => run.times[f])));
   }
 
+  makeRun(facts, end) { return new Run(facts, end); }
+
+  // Pictures that are read and that there will be; changes of `version` are changes of what the pictures are.
   get read() { return this.runs[this.runs.length - 1].positions.length; }
+  get count() { return this.times.length; }
+  get complete() { return this.read === this.count; }
+  get version() { return 0; }
   get start() { return this.times[0]; }
   get end() { return this.times[this.times.length - 1]; }
 

@@ -7,7 +7,7 @@ const parts = ["solid", "particles", "terrain", "axes", ...types];
 
 class Page {
   constructor() {
-    this.recording = new Recording();
+    this.recording = document.getElementById("module") ? new LiveRecording() : new Recording();
     const { facts, runs } = this.recording, { draw, colour, terrain, axes } = facts.view;
     this.several = runs.length > 1;
     this.player = new Player(this.recording);
@@ -16,7 +16,9 @@ class Page {
     this.plot = new Plot($("plot"), this.recording);
     this.stats = { firstPicture: 0, pictures: 0 };
     this.quality = 1;
+    this.fault = "";
     this.fill();
+    if (this.recording.live) this.panel = new LivePanel(this);
     this.listen();
     this.ready = this.start();
   }
@@ -25,7 +27,7 @@ class Page {
     await this.recording.readShapes();
     this.setUp();
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches && !location.hash.includes("paused")) this.player.playing = true;
-    await this.recording.readPictures(() => this.changed());
+    await this.recording.readPictures(() => this.heard());
     this.changed();
   }
 
@@ -37,8 +39,14 @@ class Page {
       this.bodies = this.recording.runs.map((run) => new Bodies(this.device, run));
     } catch (error) {
       this.painter = null;
-      $("notice").textContent = error.message;
+      this.say(error.message);
     }
+  }
+
+  // What does not work.
+  say(fault) {
+    this.fault = fault;
+    $("notice").textContent = fault;
   }
 
   fill() {
@@ -58,15 +66,7 @@ class Page {
       head.style.setProperty("--run", runColours[i]);
       return [head, table];
     }));
-    const about = runs.flatMap((run, i) => [
-      ...(this.several ? [["run", run.facts.name]] : []),
-      ["state hash", run.end.hash], ["precision", run.end.precision.replace("_", "")],
-      ["last step", `${run.end.steps.at(-1)}`],
-      ["particles", run.facts.particles.toLocaleString("en")], ["springs", run.facts.springs.toLocaleString("en")],
-      ...(run.end.diverged ? [["", run.end.diverged]] : [])]);
-    const error = runs.map((run) => `${shortNumber(500 * run.facts.quantum)} mm`);
-    about.push(["pictures", `${this.recording.times.length}`], ["positions", `within ${[...new Set(error)].join(", ")} in x, y and z`], ["made by", facts.program]);
-    $("about").replaceChildren(...rowsOf(about));
+    this.fillAbout();
     $("labels").replaceChildren(...(this.several ? runs : []).map((run, i) => {
       const tile = document.createElement("div"), label = document.createElement("span");
       tile.className = "tile";
@@ -74,8 +74,24 @@ class Page {
       tile.append(label);
       return tile;
     }));
-    $("scrub").max = this.recording.times.length - 1;
     this.showLook();
+  }
+
+  // What became of the runs.
+  fillAbout() {
+    const { recording, recording: { facts, runs, live } } = this;
+    const about = runs.flatMap((run) => {
+      const end = live ? recording.machine : run.end;
+      return [
+        ...(this.several ? [["run", run.facts.name]] : []),
+        ["state hash", end.hash], ["precision", end.precision.replace("_", "")],
+        ["last step", `${end.steps.at(-1)}`],
+        ["particles", run.facts.particles.toLocaleString("en")], ["springs", run.facts.springs.toLocaleString("en")],
+        ...(end.diverged ? [["", end.diverged]] : [])];
+    });
+    const error = runs.map((run) => `${shortNumber(500 * run.facts.quantum)} mm`);
+    if (!live) about.push(["pictures", `${recording.times.length}`], ["positions", `within ${[...new Set(error)].join(", ")} in x, y and z`]);
+    $("about").replaceChildren(...rowsOf([...about, ["made by", facts.program]]));
   }
 
   listen() {
@@ -192,6 +208,14 @@ class Page {
       `<line x2="${2.2 * right}" y2="${2.2 * down}" stroke="${axisColours[letter]}"/><text x="${2.8 * right}" y="${2.8 * down}">${letter}</text>`).join("")}`;
   }
 
+  // Pictures were read, or something was said of them. Where none is waited for, the one that is shown stays.
+  heard() {
+    const waiting = this.stats.pictures === 0 || this.recording.read === 1 || this.player.playing;
+    if (waiting || !this.recording.live) return this.changed();
+    if (!this.telling) requestAnimationFrame(() => { this.telling = false; this.show(); });
+    this.telling = true;
+  }
+
   changed() {
     if (this.waiting) return;
     this.waiting = true;
@@ -252,7 +276,9 @@ class Page {
   }
 
   show() {
-    const { player, recording, plot } = this, place = player.place, nearest = place.picture + Math.round(place.share);
+    const { player, recording, plot } = this;
+    if (recording.read === 0) return;
+    const place = player.place, nearest = place.picture + Math.round(place.share);
     $("play").textContent = player.playing ? "Pause" : "Play";
     $("play").setAttribute("aria-pressed", player.playing);
     $("loop").setAttribute("aria-pressed", player.loop);
@@ -260,6 +286,7 @@ class Page {
     if (!known) $("speed").append(new Option(`${shortNumber(player.speed)} ×`, player.speed));
     $("speed").value = player.speed;
     $("time").textContent = `${player.time.toFixed(3)} s`;
+    $("scrub").max = Math.max(0, recording.count - 1);
     $("scrub").value = nearest;
     $("scrub").setAttribute("aria-valuetext", `${player.time.toFixed(3)} seconds`);
     plot.draw(player.time);
@@ -272,6 +299,7 @@ class Page {
       item.textContent = `${name} ${shortNumber(joules)} J`;
       return item;
     }));
+    this.panel?.show();
     const stage = $("stage"), w = stage.clientWidth, h = stage.clientHeight, tiles = this.tiles(w, h);
     [...$("labels").children].forEach((tile, i) => {
       const run = recording.runs[i], { left, bottom, width, height } = tiles[i];
@@ -291,5 +319,8 @@ class Page {
   }
 }
 
-window.addEventListener("error", (event) => { $("notice").textContent = event.message; });
+window.addEventListener("error", (event) => {
+  if (window.aspic) aspic.say(event.message);
+  else $("notice").textContent = event.message;
+});
 window.aspic = new Page();

@@ -8,7 +8,7 @@ class Player {
 
   get last() { return this.recording.times[Math.max(this.recording.read - 1, 0)]; }
   get place() { return this.recording.place(this.time); }
-  get complete() { return this.recording.read === this.recording.times.length; }
+  get complete() { return this.recording.complete; }
 
   toggle() {
     if (!this.playing && this.time >= this.recording.end) this.time = this.recording.start;

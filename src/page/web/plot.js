@@ -3,7 +3,14 @@ const energies = ["gravitational", "elastic", "kinetic"];  // from the bottom up
 
 class Plot {
   constructor(canvas, recording) {
-    Object.assign(this, { canvas, recording });
+    Object.assign(this, { canvas, recording, version: -1 });
+  }
+
+  // The energies of all pictures, where there are others than before.
+  count() {
+    const { recording } = this;
+    if (this.version === recording.version) return;
+    this.version = recording.version;
     this.rows = recording.runs.map(({ end }) => {
       const lowest = Math.min(...end.gravitational);
       return { kinetic: end.kinetic, elastic: end.elastic, gravitational: end.gravitational.map((e) => e - lowest) };
@@ -27,11 +34,13 @@ class Plot {
 
   // Energies of a run at a time, between its pictures.
   at(run, { picture, share }) {
+    this.count();
     const next = Math.min(picture + 1, this.recording.times.length - 1), row = this.rows[run];
     return Object.fromEntries(energies.map((e) => [e, row[e][picture] + share * (row[e][next] - row[e][picture])]));
   }
 
   draw(time) {
+    this.count();
     const { canvas } = this, ratio = window.devicePixelRatio || 1, style = getComputedStyle(canvas);
     this.width = canvas.clientWidth;
     this.height = canvas.clientHeight;

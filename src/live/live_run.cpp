@@ -1,0 +1,78 @@
+#include "live/live_run.h"
+
+#include <utility>
+
+#include "cpu_reference/reference_solver.h"
+#include "model/model.h"
+#include "scene/key_lines.h"
+
+namespace aspic::live {
+namespace {
+
+Result<std::unique_ptr<Solver>> solver_of(const Scene& scene) {
+  ASPIC_TRY(auto model, build_model(scene.model));
+  return make_reference_solver(std::move(model), Precision::single);
+}
+
+std::size_t count_of(const Model& model, StateCarrier carrier) {
+  return carrier == StateCarrier::particle ? model.particle_count() : model.ball_count();
+}
+
+std::size_t numbers_of(const Model& model) {
+  return numbers_of(StateCarrier::particle) * model.particle_count() +
+         numbers_of(StateCarrier::ball) * model.ball_count();
+}
+
+}  // namespace
+
+LiveRun::LiveRun(Scene scene, std::unique_ptr<Solver> solver)
+    : scene_(std::move(scene)), solver_(std::move(solver)), numbers_(numbers_of(solver_->model())) {}
+
+Result<LiveRun> LiveRun::create(std::string_view key_lines) {
+  ASPIC_TRY(auto scene, with_key_lines({}, key_lines));
+  ASPIC_TRY(auto solver, solver_of(scene));
+  return LiveRun(std::move(scene), std::move(solver));
+}
+
+Status LiveRun::change(std::string_view key_lines) {
+  ASPIC_TRY(auto scene, with_key_lines(scene_, key_lines));
+  ASPIC_TRY(auto solver, solver_of(scene));
+  ASPIC_TRY(const State state, solver_->state());
+  if (const Status loaded = solver->load(state); !loaded)
+    return fail(ErrorCode::scene_rejected,
+                "The number of particles and balls cannot change while a run goes on.");
+  scene_ = std::move(scene);
+  solver_ = std::move(solver);
+  return {};
+}
+
+Status LiveRun::take() {
+  ASPIC_TRY(const State state, solver_->state());
+  ASPIC_TRY(step_, solver_->read_into(places()));
+  hash_ = state_hash_text(state);
+  measures_ = measure(model(), state);
+  return {};
+}
+
+Status LiveRun::load(std::uint64_t step) {
+  const StateView from = places();
+  ConstStateView view;
+  for (std::size_t n = 0; n < view.size(); ++n) {
+    const auto& field = std::get<Strided<float>>(from[n]);
+    view[n] = Strided<const float>{field.data, field.count};
+  }
+  return solver_->load(view, step);
+}
+
+StateView LiveRun::places() {
+  StateView view;
+  float* at = numbers_.data();
+  for (std::size_t n = 0; n < view.size(); ++n) {
+    const std::size_t count = count_of(model(), state_fields[n].carrier);
+    view[n] = Strided<float>{at, count};
+    at += StateField::components * count;
+  }
+  return view;
+}
+
+}  // namespace aspic::live

@@ -1,0 +1,60 @@
+#pragma once
+// A run of the reference that obeys a page: made of lines of keys, advanced from picture to picture, changed
+// on its way. Browsers have it as WebAssembly (exports.cpp), the tests as it is.
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aspic/analysis.h"
+#include "aspic/scene.h"
+#include "aspic/solver.h"
+#include "base/result.h"
+
+namespace aspic::live {
+
+class LiveRun {
+ public:
+  /// A run at the start of the scene that the lines (scene/key_lines.h) are, in single precision. Errors
+  /// (scene_rejected): with_key_lines(), build_model(), make_reference_solver().
+  static Result<LiveRun> create(std::string_view key_lines);
+
+  /// Goes on from the state it has with other values of some keys; then a divergence is forgotten. Errors
+  /// (scene_rejected), after which nothing has changed: those of create(); a scene of other particles or
+  /// balls.
+  Status change(std::string_view key_lines);
+
+  /// Solver::advance().
+  Result<std::optional<Divergence>> advance(std::uint64_t steps) { return solver_->advance(steps); }
+
+  /// Copies the state into numbers(), and measures it. Errors: none but a solver's.
+  Status take();
+  /// After take(): the state's step, its hash (state_hash_text()) and its measures.
+  std::uint64_t step() const { return step_; }
+  const std::string& hash() const { return hash_; }
+  const Measures& measures() const { return measures_; }
+
+  /// Room for a state: the fields of state_fields one after the other, three numbers a vector.
+  std::span<float> numbers() { return numbers_; }
+  /// Takes over the state in numbers(), of that step.
+  Status load(std::uint64_t step);
+
+  const Model& model() const { return solver_->model(); }
+
+ private:
+  LiveRun(Scene scene, std::unique_ptr<Solver> solver);
+  StateView places();
+
+  Scene scene_;
+  std::unique_ptr<Solver> solver_;
+  std::vector<float> numbers_;
+  std::uint64_t step_ = 0;
+  std::string hash_;
+  Measures measures_;
+};
+
+}  // namespace aspic::live

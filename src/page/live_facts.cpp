@@ -1,0 +1,116 @@
+#include "page/live_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+
+#include "base/embedded_file.h"
+#include "scene/key_lines.h"
+#include "scene/parameters.h"
+
+namespace aspic {
+std::span<const EmbeddedFile> wasm_files();  // cmake/EmbedFiles.cmake; none where scripts/wasm.sh made none
+}
+
+namespace aspic::page {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Whether a page lets its reader change a key.
+bool is_control(const Parameter& p) {
+  constexpr std::string_view of_programs[] = {"simulation.duration", "simulation.steps-per-frame"};
+  return p.live && !p.only_shown() && p.belonging != Belonging::geometry &&
+         p.belonging != Belonging::motion &&
+         std::ranges::find(of_programs, p.path) == std::end(of_programs) &&
+         (p.type == ParameterType::boolean || p.type == ParameterType::integer ||
+          p.type == ParameterType::number || p.type == ParameterType::word ||
+          (p.type == ParameterType::vector && !p.direction));
+}
+
+struct AsJson {
+  Json operator()(const Vec3& v) const { return {v.x, v.y, v.z}; }
+  Json operator()(const PinnedSettings&) const { return {}; }
+  template <class T>
+  Json operator()(const T& value) const {
+    return value;
+  }
+};
+
+/// "structural stiffness" of `cube[].structural.stiffness`.
+std::string label_of(const Parameter& p) {
+  const std::string_view key = p.key();
+  std::string text(key.substr(key.starts_with("implicit.") ? 9 : 0));
+  for (char& c : text)
+    if (c == '.' || c == '-') c = ' ';
+  return text;
+}
+
+Json row_facts(const Parameter& p, std::size_t index, const Value& value) {
+  Json row = {{"path", path_text(p.path, index)},     {"label", label_of(p)}, {"unit", p.unit},
+              {"value", std::visit(AsJson(), value)}, {"meaning", p.meaning}, {"allowed", allowed_text(p)}};
+  if (p.type == ParameterType::word) {
+    row["words"] = p.words;
+  } else if (p.type != ParameterType::boolean) {
+    row["min"] = p.range.min;
+    row["max"] = p.range.max;
+    if (p.range.min_excluded) row["above"] = true;
+    if (p.type == ParameterType::integer) row["integer"] = true;
+  }
+  return row;
+}
+
+/// "cube 2" of `cube[]` and 1, where there are several.
+std::string title_of(std::string_view section, std::size_t index, std::size_t count) {
+  const std::string name(section.substr(0, section.find('[')));
+  return count > 1 ? fmt::format("{} {}", name, index + 1) : name;
+}
+
+}  // namespace
+
+Result<std::string_view> live_module() {
+  if (!wasm_files().empty()) return wasm_files().front().text;
+  return advised(fail(ErrorCode::io, "this program was built without the WebAssembly that a live page runs."),
+                 {advice("run scripts/wasm.sh in its source tree, which makes it, and build again")});
+}
+
+Status check_live(Precision precision, Arithmetic arithmetic, bool inputs) {
+  if (const auto module = live_module(); !module) return module.error();
+  if (precision != Precision::single || arithmetic != Arithmetic::exact)
+    return fail(ErrorCode::usage,
+                "a live page computes in single precision with exact arithmetic, whose bits it compares.");
+  if (inputs) return fail(ErrorCode::usage, "a live page cannot repeat pulls and pins of hands.");
+  return {};
+}
+
+Json live_facts(const Scene& scene) {
+  Json groups = Json::array(), solve = Json::array();
+  std::vector<std::string_view> done;
+  bool bodies = false;  // those of the first one are seen at once
+  for (const Parameter& first : parameters()) {
+    const std::string_view section = first.section();
+    if (section.empty() || std::ranges::find(done, section) != done.end()) continue;
+    done.push_back(section);
+    const std::size_t count = index_count(first, scene);
+    for (std::size_t i = 0; i < count; ++i) {
+      Json rows = Json::array();
+      for (const Parameter& p : parameters())
+        if (p.section() == section && is_control(p))
+          if (const auto value = p.get(scene, i))
+            (p.key().starts_with("implicit.") ? solve : rows).push_back(row_facts(p, i, *value));
+      if (rows.empty()) continue;
+      const bool list = section.ends_with("[]"), body = list && !section.starts_with("terrain");
+      groups.push_back({{"title", title_of(section, i, count)},
+                        {"open", section == "simulation" || (body && !std::exchange(bodies, true))},
+                        {"rows", rows}});
+    }
+  }
+  // For one method alone.
+  groups.push_back({{"title", "implicit Euler"}, {"open", false}, {"rows", solve}});
+  return {{"keys", to_key_lines(scene)}, {"controls", groups}};
+}
+
+}  // namespace aspic::page

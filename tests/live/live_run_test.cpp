@@ -1,0 +1,102 @@
+#include "live/live_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cpu_reference/reference_solver.h"
+#include "model/model.h"
+#include "scene/key_lines.h"
+
+namespace aspic::live {
+namespace {
+
+const std::vector<std::string> small = {"cube[0].particles-per-edge=4", "cube[0].position=[0, 1.5, 0]"};
+
+Scene scene_of(std::vector<std::string> overrides = {}, const std::string& name = "cube-plane") {
+  if (name == "cube-plane") overrides.insert(overrides.begin(), small.begin(), small.end());
+  return load_scene(name, overrides).value();
+}
+
+LiveRun run_of(const Scene& scene) {
+  auto run = LiveRun::create(to_key_lines(scene));
+  EXPECT_TRUE(run.ok()) << run.error().message();
+  return std::move(*run);
+}
+
+std::unique_ptr<Solver> solver_of(const Scene& scene) {
+  return make_reference_solver(build_model(scene.model).value(), Precision::single).value();
+}
+
+std::string hash_of(LiveRun& run) {
+  EXPECT_TRUE(run.take().ok());
+  return run.hash();
+}
+
+TEST(LiveRun, HasTheBitsOfTheReference) {
+  for (const std::string name : {"cube-plane", "penalty"}) {
+    const Scene scene = scene_of({}, name);
+    LiveRun run = run_of(scene);
+    const auto solver = solver_of(scene);
+    ASSERT_TRUE(run.advance(150).ok() && solver->advance(150).ok());
+    const State state = solver->state().value();
+    EXPECT_EQ(hash_of(run), state_hash_text(state));
+    EXPECT_EQ(run.step(), 150u);
+    EXPECT_EQ(run.measures().kinetic, measure(solver->model(), state).kinetic);
+    // Particles first, then balls.
+    ASSERT_EQ(run.numbers().size(), 6 * state.position.size() + 9 * state.ball_position.size());
+    EXPECT_EQ(run.numbers()[4], static_cast<float>(state.position[1].y));
+    if (!state.ball_position.empty()) {
+      EXPECT_EQ(run.numbers()[6 * state.position.size()], static_cast<float>(state.ball_position[0].x));
+    }
+  }
+}
+
+TEST(LiveRun, GoesOnWithOtherValuesFromWhereItIs) {
+  const Scene scene = scene_of(), stiff = scene_of({"cube[0].structural.stiffness=4000"});
+  LiveRun run = run_of(scene);
+  const auto before = solver_of(scene), after = solver_of(stiff);
+  ASSERT_TRUE(run.advance(90).ok() && before->advance(90).ok());
+  ASSERT_TRUE(run.change("cube[0].structural.stiffness=4000.0\n").ok());
+  ASSERT_TRUE(after->load(before->state().value()).ok());
+  ASSERT_TRUE(run.advance(60).ok() && after->advance(60).ok());
+  EXPECT_EQ(hash_of(run), state_hash_text(after->state().value()));
+}
+
+TEST(LiveRun, RefusesWhatNoRunCanHaveAndGoesOnAsItWas) {
+  const Scene scene = scene_of();
+  LiveRun run = run_of(scene);
+  const auto solver = solver_of(scene);
+  EXPECT_FALSE(run.change("simulation.timestep=-1\n").ok());
+  EXPECT_FALSE(run.change("cube[0].particles-per-edge=3\n").ok());
+  ASSERT_TRUE(run.advance(20).ok() && solver->advance(20).ok());
+  EXPECT_EQ(hash_of(run), state_hash_text(solver->state().value()));
+  EXPECT_FALSE(LiveRun::create("simulation.timestep=0.1\n").ok());
+}
+
+TEST(LiveRun, GoesBackToAStateThatItHad) {
+  LiveRun run = run_of(scene_of());
+  ASSERT_TRUE(run.advance(30).ok() && run.take().ok());
+  const std::vector<float> numbers(run.numbers().begin(), run.numbers().end());
+  ASSERT_TRUE(run.advance(40).ok());
+  const std::string later = hash_of(run);
+  std::ranges::copy(numbers, run.numbers().begin());
+  ASSERT_TRUE(run.load(30).ok() && run.advance(40).ok());
+  EXPECT_EQ(hash_of(run), later);
+  EXPECT_EQ(run.step(), 70u);
+}
+
+TEST(LiveRun, SaysWhereItDivergesAndRecovers) {
+  LiveRun run = run_of(scene_of({"cube[0].structural.stiffness=1e7"}));
+  const auto advanced = run.advance(1000);
+  ASSERT_TRUE(advanced.ok() && *advanced);
+  const std::string last = hash_of(run);
+  EXPECT_EQ(run.step() + 1, (*advanced)->step);
+  ASSERT_TRUE(run.change("cube[0].structural.stiffness=10.0\nsimulation.timestep=0.0001\n").ok());
+  EXPECT_EQ(hash_of(run), last);
+  EXPECT_FALSE(run.advance(1).value().has_value());
+}
+
+}  // namespace
+}  // namespace aspic::live
