@@ -19,8 +19,9 @@ namespace aspic {
 
 /// What a series row holds of one state.
 struct Measures {
-  double kinetic = 0.0;        ///< Σ ½ m v², of balls also ½ I ω² [J]
-  double elastic = 0.0;        ///< Σ ½ k (L − r)² [J]; a slack cord holds none
+  double kinetic = 0.0;  ///< Σ ½ m v², of balls also ½ I ω² [J]
+  /// Σ ½ k (L − r)² [J], of pushes between bodies Σ ½ k (ρ − d)²; a slack cord holds none
+  double elastic = 0.0;
   double gravitational = 0.0;  ///< −Σ m g·x [J], zero at the origin
   Vec3 momentum;               ///< Σ m v [N·s]
   double max_speed = 0.0;      ///< [m/s]

@@ -80,7 +80,7 @@ struct SimulationSettings {
   ImplicitSettings implicit;                           ///< for implicit-euler alone
 };
 
-/// Contact of particles and balls with terrain, and of balls with each other.
+/// Contact of particles and balls with terrain, of balls with each other, and of bodies.
 struct ContactSettings {
   ContactModel model = ContactModel::coulomb;  ///< docs/physics.md, section 5
   double epsilon = 0.01;                       ///< ε, m for distances and m/s for speeds, > 0
@@ -89,6 +89,11 @@ struct ContactSettings {
   double ball_restitution = 1.0;               ///< 0…1
   double ball_friction = 0.3;                  ///< ≥ 0
   bool spin = true;                            ///< whether friction makes balls rotate
+  bool bodies = false;                         ///< whether bodies touch each other (docs/contact.md)
+  bool self = false;                           ///< whether a body touches itself
+  double body_friction = 0.3;                  ///< μ between bodies, ≥ 0
+  double body_gap = 0.1;                       ///< ρ, where pushes begin, in spacings, > 0 … 1
+  double body_damping = 0.2;                   ///< ζ of pushes, 0…1
 };
 
 /// How a terrain moves to and fro: displaced by amplitude·sin 2π(frequency·t + phase) along a direction.

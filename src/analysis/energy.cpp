@@ -5,10 +5,24 @@
 #include <utility>
 
 #include "aspic/analysis.h"
+#include "cpu_reference/body_contact.h"
 #include "model/counts.h"
 #include "model/springs.h"
 
 namespace aspic {
+
+namespace {
+
+/// What pushes between bodies hold [J].
+double push_energy(const Model& model, const State& state) {
+  using Contact = reference::BodyContact<double>;
+  Contact contact(model);
+  const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
+  const Contact::Particles at = {reference::components(x.data()), reference::components(v.data()), 3};
+  return contact.begin_step(state.step, at) && contact.find(at) ? contact.energy() : 0.0;
+}
+
+}  // namespace
 
 double Measures::total() const {
   return kinetic + elastic + gravitational;
@@ -45,6 +59,7 @@ Measures measure(const Model& model, const State& state) {
     if (c.cord && stretch < 0.0) continue;
     m.elastic += 0.5 * c.stiffness * stretch * stretch;
   }
+  if (bodies_touch(model)) m.elastic += push_energy(model, state);
   return m;
 }
 

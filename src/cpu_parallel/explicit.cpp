@@ -23,6 +23,11 @@ void for_parts(Range range, std::size_t size, const F& f) {
     f(Range{range.first + at, std::min(size, range.count - at)});
 }
 
+reference::ParticleView<const float> view(const Particles& particles) {
+  const auto of = [](const VectorArray& a) { return std::array{a[0].data(), a[1].data(), a[2].data()}; };
+  return {of(particles.x), of(particles.v), 1};
+}
+
 }  // namespace
 
 ExplicitSteps::ExplicitSteps(const StepParts& parts)
@@ -44,9 +49,15 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
   }
   for (unsigned n = 0; plane_size > 0 && n < workers_.threads(); ++n)
     sweeps_.emplace_back(plane_size, row_size);
+  ExplicitSteps::constants_changed();
   if (method_.stages.size() == 1) return;
   sums_ = Particles(model_->particle_count(), slice);
   between_ = Particles(model_->particle_count(), parts.margin);
+}
+
+void ExplicitSteps::constants_changed() {
+  known_ = false;
+  bodies_ = bodies_touch(*model_) ? std::make_unique<reference::BodyContact<float>>(*model_) : nullptr;
 }
 
 std::uint64_t ExplicitSteps::bytes() const {
@@ -54,7 +65,7 @@ std::uint64_t ExplicitSteps::bytes() const {
       sizeof(*this) + bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) + bytes_of(sweeps_);
   for (const Task& task : tasks_) sum += bytes_of(task.near) + bytes_of(task.resting);
   for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
-  return sum;
+  return bodies_ ? sum + bodies_->bytes() : sum;
 }
 
 void ExplicitSteps::cut(std::size_t body) {
@@ -85,6 +96,7 @@ bool ExplicitSteps::look_at(const Particles& start) {
 
 bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
   if (!known_) look_at(start);
+  const bool may_touch = bodies_ && bodies_->begin_step(dynamics_.step(), view(start));
   const double h = model_->simulation.timestep;
   const std::size_t stages = method_.stages.size();
   const Particles* at = &start;
@@ -104,9 +116,14 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
                             accumulate,
                             s + 1 == stages,
                             method_.drift};
+    touching_ = may_touch && bodies_->find(view(*at), [&](std::size_t count, const auto& task) {
+      workers_.run(count, task);
+    });
+    if (touching_) touched_.resize(bodies_->particles().size());
     workers_.run(tasks_.size(), [&](std::size_t n) {
       if (!dynamics_.interrupted()) run(tasks_[n], move);
     });
+    if (touching_ && !dynamics_.interrupted()) touch(move);
     accumulate = accumulate || stage.weight != 0.0;
     at = to;
   }
@@ -145,17 +162,15 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   }
   task.box = moved.box();
   task.sound = moved.sound;
+  if (touching_) return;  // the others move first
+  end(task, stage);
+}
+
+/// What ends a stage of a task whose particles have moved.
+void ExplicitSteps::end(Task& task, const StageMove& stage) {
   if (!stage.last) return;
   find_near(task, stage.next->x);
   respond(task, stage);
-}
-
-/// What comes after the springs of some of a task's particles.
-void ExplicitSteps::finish(Task& task, const StageMove& stage, bool near, Range range, const Forces& forces,
-                           Moved& moved) {
-  pull(stage, range, forces);
-  if (near || !task.resting.empty()) add_contact(task, stage, range, forces);
-  move(stage, range, forces, moved);
 }
 
 namespace {
@@ -167,7 +182,78 @@ void put_force(const Forces& forces, std::size_t n, const Vector& f) {
   for (std::size_t c = 0; c < 3; ++c) forces.component[c][n] = f[static_cast<Eigen::Index>(c)];
 }
 
+/// Around both.
+Box around(Box a, const Box& b) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    a.min[c] = std::min(a.min[c], b.min[c]);
+    a.max[c] = std::max(a.max[c], b.max[c]);
+  }
+  return a;
+}
+
 }  // namespace
+
+/// What comes after the springs of some of a task's particles.
+void ExplicitSteps::finish(Task& task, const StageMove& stage, bool near, Range range, const Forces& forces,
+                           Moved& moved) {
+  pull(stage, range, forces);
+  if (touching_) {
+    const std::uint32_t* const all = bodies_->particles().data();
+    for (const std::uint32_t& i : touched_in(range))
+      touched_[static_cast<std::size_t>(&i - all)] = force_at(forces, i - range.first);
+  }
+  if (near || !task.resting.empty()) add_contact(task, stage, range, forces);
+  if (touching_)
+    move_rest(stage, range, forces, moved);
+  else
+    move(stage, range, forces, moved);
+}
+
+/// Of the particles that bodies touch in this stage, those of a range.
+std::span<const std::uint32_t> ExplicitSteps::touched_in(Range range) const {
+  const auto all = bodies_->particles();
+  const auto first = std::ranges::lower_bound(all, range.first),
+             end = std::ranges::lower_bound(all, range.first + range.count);
+  return {first, end};
+}
+
+/// Moves the particles of a range that no body touches.
+void ExplicitSteps::move_rest(const StageMove& stage, Range range, const Forces& forces, Moved& moved) {
+  std::size_t from = range.first;
+  const auto move_until = [&](std::size_t end) {
+    const std::size_t n = from - range.first;
+    const Forces part = {{forces.component[0] + n, forces.component[1] + n, forces.component[2] + n}};
+    if (from < end) move(stage, {from, end - from}, part, moved);
+    from = end + 1;
+  };
+  for (const std::uint32_t i : touched_in(range)) move_until(i);
+  move_until(range.first + range.count);
+}
+
+/// Pushes and friction of bodies, then what comes after them for the particles they touch.
+void ExplicitSteps::touch(const StageMove& stage) {
+  bodies_->act(
+      view(*stage.start), [&](std::uint32_t p) { return inverse_mass_[p]; }, touched_);
+  workers_.run(tasks_.size(), [&](std::size_t n) {
+    move_touched(tasks_[n], stage);
+    end(tasks_[n], stage);
+  });
+}
+
+void ExplicitSteps::move_touched(Task& task, const StageMove& stage) {
+  const auto all = bodies_->particles(), own = touched_in(task.range);
+  if (own.empty()) return;
+  alignas(64) float f[3][slice] = {};
+  const Forces forces = {{f[0], f[1], f[2]}};
+  Moved moved(speed_limit);
+  for (const std::uint32_t& i : own) {
+    put_force(forces, 0, touched_[static_cast<std::size_t>(&i - all.data())]);
+    add_contact(task, stage, {i, 1}, forces);
+    move(stage, {i, 1}, forces, moved);
+  }
+  task.box = around(task.box, moved.box());
+  task.sound = task.sound && moved.sound;
+}
 
 void ExplicitSteps::pull(const StageMove& stage, Range range, const Forces& forces) {
   for (const reference::PullConstants<float>& pull : dynamics_.pulls()) {
@@ -265,11 +351,7 @@ void ExplicitSteps::respond(Task& task, const StageMove& stage) {
       set(next.x, i, x);
       set(next.v, i, v);
     }
-    const Box moved = box_of(next.x, part);
-    for (std::size_t c = 0; c < 3; ++c) {
-      task.box.min[c] = std::min(task.box.min[c], moved.min[c]);
-      task.box.max[c] = std::max(task.box.max[c], moved.max[c]);
-    }
+    task.box = around(task.box, box_of(next.x, part));
     task.sound = task.sound && all_sound(next, part, speed_limit);
   }
   if (!task.sound) task.sound = all_sound(next, task.range, speed_limit);

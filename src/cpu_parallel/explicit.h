@@ -1,10 +1,14 @@
 #pragma once
 // Steps of the explicit methods for the parallel solver: springs, contact and a stage of the method in one
 // pass over the particles, the terrain's response at its end.
+#include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "cpu_parallel/lattice_kernels.h"
 #include "cpu_parallel/steps.h"
+#include "cpu_reference/body_contact.h"
 
 namespace aspic::parallel {
 
@@ -17,6 +21,7 @@ class ExplicitSteps final : public Steps {
   bool look_at(const Particles& start) override;
   /// The next step looks itself.
   void forget() override { known_ = false; }
+  void constants_changed() override;
   Arithmetic arithmetic() const override { return arithmetic_; }
   std::uint64_t bytes() const override;
 
@@ -38,8 +43,13 @@ class ExplicitSteps final : public Steps {
   void finish(Task& task, const StageMove& stage, bool near, Range range, const Forces& forces, Moved& moved);
   void pull(const StageMove& stage, Range range, const Forces& forces);
   void add_contact(Task& task, const StageMove& stage, Range range, const Forces& forces);
+  void end(Task& task, const StageMove& stage);
   void respond(Task& task, const StageMove& stage);
   void find_near(Task& task, const VectorArray& x) const;
+  void touch(const StageMove& stage);
+  void move_touched(Task& task, const StageMove& stage);
+  std::span<const std::uint32_t> touched_in(Range range) const;
+  void move_rest(const StageMove& stage, Range range, const Forces& forces, Moved& moved);
   void find_resting(Task& task, const StageMove& stage) const;
   template <class F>
   void for_near(const VectorArray& x, Range range, const F& f) const;
@@ -54,7 +64,10 @@ class ExplicitSteps final : public Steps {
   std::vector<Task> tasks_;
   std::vector<Sweep> sweeps_;  // by thread
   Particles between_, sums_;
-  bool known_ = false;  ///< the boxes, and what is near
+  bool known_ = false;                                     ///< the boxes, and what is near
+  std::unique_ptr<reference::BodyContact<float>> bodies_;  ///< none where none can touch
+  bool touching_ = false;                                  ///< in the stage at hand
+  std::vector<reference::Vector<float>> touched_;          ///< forces on bodies_->particles() [N]
 };
 
 }  // namespace aspic::parallel

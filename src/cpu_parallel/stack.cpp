@@ -9,6 +9,7 @@
 #include "cpu_parallel/contact_pieces.h"
 #include "cpu_reference/divergence.h"
 #include "model/inputs.h"
+#include "model/touch_surface.h"
 
 namespace aspic::parallel {
 namespace {
@@ -41,7 +42,7 @@ Strided<T> column(AnyArray& array, std::size_t lane, std::size_t count) {
 }  // namespace
 
 bool Stack::takes(const Model& model) {
-  return row_of(model.simulation.integrator).staged() && model.ball_count() == 0 &&
+  return row_of(model.simulation.integrator).staged() && model.ball_count() == 0 && !bodies_touch(model) &&
          model.particle_count() > 0 && model.particle_count() <= most_particles;
 }
 

@@ -16,8 +16,8 @@ namespace aspic::parallel {
 
 class Stack {
  public:
-  /// Whether a model may be in one: its method is staged, it has particles, not too many for a cache, and no
-  /// balls.
+  /// Whether a model may be in one: its method is staged, it has particles, not too many for a cache, no
+  /// balls and no bodies that touch.
   static bool takes(const Model& model);
   /// Whether two that may be in one may be in the same: their topology and time step are equal.
   static bool same(const Model& a, const Model& b);

@@ -4,7 +4,5 @@ namespace aspic::reference {
 
 template class Dynamics<float>;
 template class Dynamics<double>;
-template class StepDynamics<float>;
-template class StepDynamics<double>;
 
 }  // namespace aspic::reference

@@ -59,18 +59,21 @@ class Dynamics {
 
   /// The step from the state of this number begins: moving ground takes its places at both ends of it.
   void begin_step(std::uint64_t step) {
+    step_ = step;
     for (Ground<T>& ground : grounds_) ground.begin_step(model_->simulation.timestep, step);
   }
+
+  std::uint64_t step() const { return step_; }
 
   /// While `*flag` is true forces are left incomplete, for a step that is cancelled; see
   /// Solver::set_stop_flag.
   void set_stop_flag(const std::atomic<bool>* flag) { flag_ = flag; }
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
-  /// f(x, v) [N], one column per particle.
+  /// f(x, v) [N], one column per particle; of a step with BodyContact that of StepDynamics instead.
   Field<T> force(const Field<T>& x, const Field<T>& v) const {
     Field<T> f = force_without_contact(x, v);
-    if (model_->contact.model == ContactModel::course) add_contact_force(x, v, f);
+    add_contact_force(x, v, f);
     return f;
   }
 
@@ -160,7 +163,6 @@ class Dynamics {
     }
   }
 
- private:
   /// m·g, then the springs, then the pulls. Springs are sorted by (a, b), so each particle's sum runs over
   /// its springs in ascending neighbour index.
   Field<T> force_without_contact(const Field<T>& x, const Field<T>& v) const {
@@ -180,12 +182,15 @@ class Dynamics {
     return f;
   }
 
+  /// The course model: adds every terrain's part to the forces.
   void add_contact_force(const Field<T>& x, const Field<T>& v, Field<T>& f) const {
+    if (model_->contact.model != ContactModel::course) return;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
       if (inverse_mass(i) != T(0)) f.col(i) = with_contact(x.col(i), v.col(i), f.col(i));
     }
   }
 
+ private:
   const Model* model_;
   const std::atomic<bool>* flag_ = nullptr;
   Vector<T> gravity_;
@@ -194,34 +199,11 @@ class Dynamics {
   std::vector<Ground<T>> grounds_;
   std::vector<PullConstants<T>> pulls_;
   Runs<T> mass_, inverse_mass_;
-};
-
-/// The forces of one step from (x0, v0): those of `dynamics`, then the ground's reaction on the particles
-/// that rest on it. An explicit method evaluates these.
-template <class T>
-class StepDynamics {
- public:
-  StepDynamics(const Dynamics<T>& dynamics, const Field<T>& x0, const Field<T>& v0) : dynamics_(dynamics) {
-    for (Eigen::Index i = 0; i < x0.cols(); ++i) dynamics.find_resting(i, x0.col(i), v0.col(i), resting_);
-  }
-
-  /// a(x, v) [m/s²] at any stage of the step.
-  Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
-    Field<T> f = dynamics_.force(x, v);
-    for (const RestingContact<T>& at : resting_)
-      f.col(at.particle) = with_reaction<T>(at, f.col(at.particle));
-    return dynamics_.weighed(std::move(f));
-  }
-
- private:
-  const Dynamics<T>& dynamics_;
-  std::vector<RestingContact<T>> resting_;
+  std::uint64_t step_ = 0;
 };
 
 // Compiled once, in dynamics.cpp.
 extern template class Dynamics<float>;
 extern template class Dynamics<double>;
-extern template class StepDynamics<float>;
-extern template class StepDynamics<double>;
 
 }  // namespace aspic::reference

@@ -1,5 +1,7 @@
 #include "cpu_reference/integrators.h"
 
+#include "cpu_reference/step_dynamics.h"
+
 namespace aspic::reference {
 
 template Phase<float> explicit_step(Integrator, const StepDynamics<float>&, const Phase<float>&, double);

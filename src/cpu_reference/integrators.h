@@ -11,6 +11,9 @@
 
 namespace aspic::reference {
 
+template <class T>
+class StepDynamics;  // step_dynamics.h
+
 /// Positions and velocities of all particles, or balls.
 template <class T>
 struct Phase {

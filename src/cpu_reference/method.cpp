@@ -1,8 +1,10 @@
 #include "cpu_reference/method.h"
 
 #include <cassert>
+#include <memory>
 
 #include "cpu_reference/implicit_euler.h"
+#include "cpu_reference/step_dynamics.h"
 
 namespace aspic::reference {
 namespace {
@@ -12,21 +14,25 @@ template <class T>
 class StagedMethod final : public Method<T> {
  public:
   StagedMethod(const Dynamics<T>& dynamics, const Model& model)
-      : dynamics_(dynamics), integrator_(model.simulation.integrator), h_(model.simulation.timestep) {}
+      : dynamics_(dynamics), integrator_(model.simulation.integrator), h_(model.simulation.timestep) {
+    if (bodies_touch(model)) bodies_ = std::make_unique<BodyContact<T>>(model);
+  }
 
   Phase<T> step(const Phase<T>& s, SolveReport&) override {
-    return explicit_step(integrator_, StepDynamics<T>(dynamics_, s.x, s.v), s, h_);
+    return explicit_step(integrator_, StepDynamics<T>(dynamics_, s.x, s.v, bodies_.get()), s, h_);
   }
   void respond(const Phase<T>& s, Phase<T>& end) const override { dynamics_.respond(s.x, s.v, end.x, end.v); }
 
-  /// For each stage a velocity and an acceleration.
+  /// For each stage a velocity and an acceleration; contact of bodies without lists of what touches.
   static std::uint64_t bytes(const Model& model) {
     const std::size_t stages = row_of(model.simulation.integrator).staged()->stages.size();
-    return model.particle_count() * sizeof(T) * 3 * 2 * stages;
+    const std::uint64_t touch = bodies_touch(model) ? touch_bytes(model) : 0;
+    return model.particle_count() * sizeof(T) * 3 * 2 * stages + touch;
   }
 
  private:
   const Dynamics<T>& dynamics_;
+  std::unique_ptr<BodyContact<T>> bodies_;  // none where none can touch
   Integrator integrator_;
   double h_;
 };

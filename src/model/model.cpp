@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "model/bodies.h"
+#include "model/integrator.h"
 #include "model/springs.h"
 #include "model/terrain.h"
+#include "model/touch_surface.h"
 
 namespace aspic {
 namespace {
@@ -62,6 +64,10 @@ Result<Model> build_model(const ModelSettings& settings) {
         return fail(added.error(), "{}[{}].{}", body.list.key, i, added.error().what);
     }
   }
+  if (bodies_touch(model) && !row_of(model.simulation.integrator).staged())
+    return fail(ErrorCode::scene_rejected,
+                "contact of bodies needs an explicit integrator: choose another than {}, or none of it",
+                name_of(model.simulation.integrator));
   return model;
 }
 
@@ -111,6 +117,8 @@ Status check_same_topology(const Model& from, const Model& to) {
     differs = "kinds of terrain";
   else if (from.contact.model != to.contact.model)
     differs = "contact model";
+  else if (from.contact.bodies != to.contact.bodies || from.contact.self != to.contact.self)
+    differs = "contact of bodies";
   else if (from.simulation.integrator != to.simulation.integrator)
     differs = "integrator";
   if (!differs) return {};

@@ -15,7 +15,8 @@ import numpy as np
 
 from oracle_contact import CoulombStep, dot
 from oracle_implicit import backward_euler
-from oracle_scene import TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene
+from oracle_scene import TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene, surface_facts
+from oracle_touch import Surface, Touch
 
 COLUMNS = ["kind", "index", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"]
 SPEED_LIMIT = 1000.0  # m/s; faster is divergence
@@ -84,6 +85,11 @@ class World:
                           for end in (0, 1))
         self.r, self.k, self.c = (np.concatenate([s[q] for _, s in cubes]) for q in (2, 3, 4))
         self.w = np.where(self.free, 1.0 / self.m, 0.0)
+        self.touch = None
+        if contact["bodies"] or contact["self"]:
+            surfaces = [Surface(tuple(made["n"]), made["s"], made["k"], made["m"], start, self.x)
+                        for made, start in zip((surface_facts(c) for c in scene["cube"]), starts)]
+            self.touch = Touch(self, surfaces, contact)
 
     def spring_force(self, x, v):
         e = x[self.a] - x[self.b]
@@ -98,6 +104,8 @@ class World:
 
     def acceleration(self, x, v):
         f = self.m[:, None] * self.gravity + self.spring_force(x, v)
+        if self.touch:
+            f = self.touch.forces(x, v, f)
         f = self.course_contact_force(x, v, f) if self.model == "course" else self.ground.reaction(f)
         return self.w[:, None] * f
 
@@ -124,6 +132,8 @@ class World:
         """Advances by h; on divergence the last good state is kept and Diverged is raised."""
         with np.errstate(over="ignore", invalid="ignore"):
             self.ground = CoulombStep(self) if self.model == "coulomb" else None
+            if self.touch:
+                self.touch.begin(self.x, self.v)
             held = None
             if self.integrate:
                 x, v = self.integrate(self.acceleration, self.x, self.v, self.h)

@@ -15,7 +15,8 @@ SIMULATION = {
 }
 CONTACT = {
     "model": "coulomb", "epsilon": 0.01, "restitution": 0.8, "friction": 0.3,
-    "ball-restitution": 1.0, "ball-friction": 0.3, "spin": True,
+    "ball-restitution": 1.0, "ball-friction": 0.3, "spin": True, "bodies": False, "self": False, "body-friction": 0.3,
+    "body-gap": 0.1, "body-damping": 0.2,
 }
 TERRAIN = {
     "plane": {"point": [0.0, -1.0, 0.0], "normal": [0.0, 1.0, 0.0]},
@@ -163,3 +164,11 @@ def build_cube(table, readings, where):
             constants = s * np.linalg.norm(offset), cube[kind]["stiffness"], cube[kind]["damping"]
             springs.append([a, b, *(np.full(len(a), value, dtype=float) for value in constants)])
     return (np.full(len(grid), mass), ~pinned, x, v), [np.concatenate(column) for column in zip(*springs)]
+
+
+def surface_facts(table):
+    """What contact between cubes needs of one whose table build_cube() has taken: n, s, k of structural springs, m."""
+    cube = filled(table, CUBE | (CUBE_BY_MATERIAL if "material" in table else CUBE_BY_SPRING), "cube")
+    (m, *_), (_, _, r, k, _) = build_cube(table, Readings(), "cube")
+    n = np.array(cube["particles"] or [cube["particles-per-edge"]] * 3)
+    return {"n": n, "s": r.min(), "k": k[r.argmin()], "m": m[0]}

@@ -1,0 +1,244 @@
+#include "cpu_reference/near_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace aspic::reference {
+namespace {
+
+double component(const Vec3& v, std::size_t axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/// No pair of the body has a larger margin [m].
+double most_margin(const ContactSettings& contact, const TouchBody& body) {
+  TouchBody open = body;
+  open.closed = false;
+  return touch_pair(contact, body, open, false).margin;
+}
+
+}  // namespace
+
+void Bounds::add(const Vec3& place) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    min[c] = std::min(min[c], component(place, c));
+    max[c] = std::max(max[c], component(place, c));
+  }
+}
+
+bool Bounds::holds(const Vec3& place, double margin) const {
+  for (std::size_t c = 0; c < 3; ++c)
+    if (!(component(place, c) >= min[c] - margin && component(place, c) <= max[c] + margin)) return false;
+  return true;
+}
+
+bool Bounds::meets(const Bounds& other, double margin) const {
+  for (std::size_t c = 0; c < 3; ++c)
+    if (!(other.max[c] >= min[c] - margin && other.min[c] <= max[c] + margin)) return false;
+  return true;
+}
+
+std::size_t TriangleGrid::cell(std::size_t axis, double x) const {
+  const double n = (x - centres_.min[axis]) / size_;
+  if (!(n > 0.0)) return 0;
+  return std::min(cells_[axis] - 1, static_cast<std::size_t>(std::min(n, 1e9)));
+}
+
+void TriangleGrid::build(std::span<const Bounds> boxes) {
+  boxes_ = boxes;
+  centres_ = {};
+  half_ = 0.0;
+  const auto centre = [](const Bounds& box) {
+    return 0.5 * Vec3{box.min[0] + box.max[0], box.min[1] + box.max[1], box.min[2] + box.max[2]};
+  };
+  double sum = 0.0;
+  for (const Bounds& box : boxes) {
+    centres_.add(centre(box));
+    double half = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) half = std::max(half, 0.5 * (box.max[c] - box.min[c]));
+    half_ = std::max(half_, half);
+    sum += half;
+  }
+  // Cells of the size of a quad, larger where that would make more of them than there are triangles.
+  size_ = std::max(2.0 * sum / static_cast<double>(boxes.size()), std::numeric_limits<double>::min());
+  const auto count = [&](std::size_t c) {
+    return 1.0 + std::floor((centres_.max[c] - centres_.min[c]) / size_);
+  };
+  while (count(0) * count(1) * count(2) > 8.0 * static_cast<double>(boxes.size())) size_ *= 2.0;
+  for (std::size_t c = 0; c < 3; ++c) cells_[c] = static_cast<std::size_t>(count(c));
+
+  const auto index = [&](const Bounds& box) {
+    const Vec3 at = centre(box);
+    return (cell(0, at.x) * cells_[1] + cell(1, at.y)) * cells_[2] + cell(2, at.z);
+  };
+  begin_.assign(cells_[0] * cells_[1] * cells_[2] + 1, 0);
+  for (const Bounds& box : boxes) ++begin_[index(box) + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  triangles_.resize(boxes.size());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::uint32_t t = 0; t < boxes.size(); ++t) triangles_[next[index(boxes[t])]++] = t;
+}
+
+void TriangleGrid::near(const Vec3& place, double margin, std::vector<std::uint32_t>& found) const {
+  const auto before = static_cast<std::ptrdiff_t>(found.size());
+  const double reach = margin + half_;
+  std::array<std::size_t, 3> from, to;
+  for (std::size_t c = 0; c < 3; ++c) {
+    from[c] = cell(c, component(place, c) - reach);
+    to[c] = cell(c, component(place, c) + reach);
+  }
+  for (std::size_t i = from[0]; i <= to[0]; ++i) {
+    for (std::size_t j = from[1]; j <= to[1]; ++j) {
+      const std::size_t row = (i * cells_[1] + j) * cells_[2];
+      for (std::uint32_t n = begin_[row + from[2]]; n < begin_[row + to[2] + 1]; ++n)
+        if (boxes_[triangles_[n]].holds(place, margin)) found.push_back(triangles_[n]);
+    }
+  }
+  std::sort(found.begin() + before, found.end());
+}
+
+NearTriangles::NearTriangles(const Model& model, const TouchSurfaces& surfaces)
+    : surfaces_(surfaces), contact_(model.contact), slack_(std::numeric_limits<double>::infinity()) {
+  std::vector<std::uint32_t> point_of(model.particle_count());
+  for (std::uint32_t p = 0; p < surfaces.points.size(); ++p)
+    if (surfaces.points[p].single()) point_of[surfaces.points[p].carrier[0]] = p;
+  for (const TouchTriangle& t : surfaces.triangles)
+    corners_.push_back({point_of[t.corner[0]], point_of[t.corner[1]], point_of[t.corner[2]]});
+  for (const TouchBody& body : surfaces.bodies) slack_ = std::min(slack_, 0.25 * body.spacing);
+  boxes_.resize(surfaces.triangles.size());
+  if (!contact_.self) return;
+  for (const TouchPoint& point : surfaces.points) {
+    const auto at = [&](std::size_t n) { return model.initial_position[point.carrier[n]]; };
+    rest_.push_back(point.single() ? at(0) : point.weight[0] * at(0) + point.weight[1] * at(1));
+  }
+}
+
+bool NearTriangles::update(std::span<const Vec3> places) {
+  if (still_valid(places)) return false;
+  make(places);
+  return true;
+}
+
+void NearTriangles::make(std::span<const Vec3> places) {
+  built_.assign(places.begin(), places.end());
+  build();
+}
+
+bool NearTriangles::still_valid(std::span<const Vec3> places) const {
+  if (built_.size() != places.size()) return false;
+  const double most = leeway() * leeway();
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    if (!surfaces_.points[p].single()) continue;
+    const Vec3 way = places[p] - built_[p];
+    if (!(dot(way, way) <= most)) return false;
+  }
+  return true;
+}
+
+Vec3 NearTriangles::place_of(std::uint32_t point, std::span<const Vec3> places) const {
+  const TouchPoint& p = surfaces_.points[point];
+  if (p.single()) return places[point];
+  return p.weight[0] * places[p.own[0]] + p.weight[1] * places[p.own[1]];
+}
+
+void NearTriangles::build() {
+  std::vector<Bounds> around(surfaces_.bodies.size());
+  Bounds all;
+  for (std::size_t b = 0; b < around.size(); ++b) {
+    const TouchBody& body = surfaces_.bodies[b];
+    for (std::uint32_t p = 0; p < body.surface_particles; ++p) around[b].add(built_[body.first_point + p]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      all.min[c] = std::min(all.min[c], around[b].min[c]);
+      all.max[c] = std::max(all.max[c], around[b].max[c]);
+    }
+  }
+  // Rounding of places in single precision, many times over.
+  pad_ = 0.0;
+  for (std::size_t c = 0; c < 3; ++c)
+    pad_ = std::max({pad_, 1e-6 * std::abs(all.min[c]), 1e-6 * std::abs(all.max[c])});
+
+  find_partners(around);
+  encounters_.clear();
+  triangles_.clear();
+  std::uint32_t gridded = std::numeric_limits<std::uint32_t>::max();
+  for (const auto& [faces, points] : partners_) {
+    if (faces != gridded) {
+      const TouchBody& body = surfaces_.bodies[faces];
+      for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+        boxes_[t] = {};
+        for (const std::uint32_t corner : corners_[t]) boxes_[t].add(built_[corner]);
+      }
+      grid_.build(std::span(boxes_).subspan(body.first_triangle, body.triangle_count));
+      gridded = faces;
+    }
+    meet(points, faces);
+  }
+  std::ranges::sort(encounters_, {}, [](const Encounter& e) { return std::pair(e.point, e.body); });
+}
+
+/// Pairs of bodies whose boxes are near, by body of triangles.
+void NearTriangles::find_partners(const std::vector<Bounds>& around) {
+  partners_.clear();
+  std::vector<std::uint32_t> order(around.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::sort(order, {}, [&](std::uint32_t b) { return around[b].min[0]; });
+  double widest = 0.0;
+  for (const TouchBody& body : surfaces_.bodies) widest = std::max(widest, most_margin(contact_, body));
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    const std::uint32_t a = order[n];
+    if (contact_.self) partners_.push_back({a, a});
+    if (!contact_.bodies) continue;
+    for (std::size_t m = n + 1; m < order.size(); ++m) {
+      const std::uint32_t b = order[m];
+      if (around[b].min[0] > around[a].max[0] + widest + slack_ + pad_) break;
+      const double margin =
+          touch_pair(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false).margin + slack_ + pad_;
+      if (!around[a].meets(around[b], margin)) continue;
+      partners_.push_back({a, b});
+      partners_.push_back({b, a});
+    }
+  }
+  std::ranges::sort(partners_);
+}
+
+/// Points of body a near the triangles of body b, which are in the grid.
+void NearTriangles::meet(std::uint32_t a, std::uint32_t b) {
+  const TouchBody &points = surfaces_.bodies[a], &faces = surfaces_.bodies[b];
+  const double margin = touch_pair(contact_, points, faces, a == b).margin + slack_ + pad_;
+  Bounds box;
+  for (std::uint32_t p = 0; p < faces.surface_particles; ++p) box.add(built_[faces.first_point + p]);
+  for (std::uint32_t p = points.first_point; p < points.first_point + points.point_count; ++p) {
+    const Vec3 place = place_of(p, built_);
+    if (!box.holds(place, margin)) continue;
+    found_.clear();
+    grid_.near(place, margin, found_);
+    for (std::uint32_t& t : found_) t += faces.first_triangle;
+    if (a == b) drop_neighbours(p, found_);
+    if (found_.empty()) continue;
+    encounters_.push_back(
+        {p, b, static_cast<std::uint32_t>(triangles_.size()), static_cast<std::uint32_t>(found_.size())});
+    triangles_.insert(triangles_.end(), found_.begin(), found_.end());
+  }
+}
+
+/// Within one body, only what is far apart at rest touches.
+void NearTriangles::drop_neighbours(std::uint32_t point, std::vector<std::uint32_t>& triangles) const {
+  const auto spacing_at = [&](std::uint32_t p) {
+    const auto after = std::ranges::upper_bound(surfaces_.bodies, p, {}, &TouchBody::first_point);
+    return std::prev(after)->spacing;
+  };
+  const double least = least_rest_distance * spacing_at(point);
+  std::erase_if(triangles, [&](std::uint32_t t) {
+    return std::ranges::any_of(
+        corners_[t], [&](std::uint32_t corner) { return !(length(rest_[point] - rest_[corner]) > least); });
+  });
+}
+
+std::uint64_t NearTriangles::bytes() const {
+  return corners_.capacity() * sizeof(corners_[0]) + (rest_.capacity() + built_.capacity()) * sizeof(Vec3) +
+         boxes_.capacity() * sizeof(Bounds) + encounters_.capacity() * sizeof(Encounter) +
+         (triangles_.capacity() + found_.capacity()) * sizeof(std::uint32_t);
+}
+
+}  // namespace aspic::reference

@@ -1,0 +1,95 @@
+#pragma once
+// Which triangles are near which points of which bodies, for several steps at once: every pair that may
+// become a candidate (touch_search.h) before something has moved by half of a slack. In double precision and
+// generous: nothing in a state depends on it.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "aspic/vec.h"
+#include "model/touch_surface.h"
+
+namespace aspic::reference {
+
+/// Triangles of one body near a point.
+struct Encounter {
+  std::uint32_t point, body;   ///< numbers in TouchSurfaces; the body is the triangles'
+  std::uint32_t first, count;  ///< in a list of triangles
+};
+
+/// Around places [m]; around none at first.
+struct Bounds {
+  static constexpr double far = std::numeric_limits<double>::infinity();
+  std::array<double, 3> min = {far, far, far}, max = {-far, -far, -far};
+
+  void add(const Vec3& place);
+  /// Whether the box, widened by `margin`, holds the place, or meets another.
+  bool holds(const Vec3& place, double margin) const;
+  bool meets(const Bounds& other, double margin) const;
+};
+
+/// The triangles of a body in cubic cells, by the centres of their boxes.
+class TriangleGrid {
+ public:
+  /// `boxes`: of the body's triangles.
+  void build(std::span<const Bounds> boxes);
+  /// Appends those whose boxes, widened by `margin`, hold the place; relative to the body's first, ascending.
+  void near(const Vec3& place, double margin, std::vector<std::uint32_t>& found) const;
+
+ private:
+  std::size_t cell(std::size_t axis, double x) const;
+
+  std::span<const Bounds> boxes_;
+  Bounds centres_;
+  double half_ = 0.0;  // extent of the largest box [m]
+  double size_ = 1.0;  // of a cell [m]
+  std::array<std::size_t, 3> cells_ = {};
+  std::vector<std::uint32_t> begin_, triangles_;  // by cell
+};
+
+class NearTriangles {
+ public:
+  /// `surfaces` must outlive it.
+  NearTriangles(const Model& model, const TouchSurfaces& surfaces);
+
+  /// Particles of points are at these places now, by point; of those on edges nothing is asked. Returns
+  /// whether the lists were made again.
+  bool update(std::span<const Vec3> places);
+  /// The same, and makes the lists again whatever has moved.
+  void make(std::span<const Vec3> places);
+  /// How far a particle may be from where it was when the lists were made [m].
+  double leeway() const { return 0.5 * slack_; }
+  /// Ascending by point, then by body.
+  std::span<const Encounter> encounters() const { return encounters_; }
+  /// Of one of them, ascending.
+  std::span<const std::uint32_t> triangles(const Encounter& of) const {
+    return std::span(triangles_).subspan(of.first, of.count);
+  }
+  std::uint64_t bytes() const;
+
+ private:
+  bool still_valid(std::span<const Vec3> places) const;
+  void build();
+  void find_partners(const std::vector<Bounds>& around);
+  void meet(std::uint32_t a, std::uint32_t b);
+  Vec3 place_of(std::uint32_t point, std::span<const Vec3> places) const;
+  void drop_neighbours(std::uint32_t point, std::vector<std::uint32_t>& triangles) const;
+
+  const TouchSurfaces& surfaces_;
+  ContactSettings contact_;
+  std::vector<std::array<std::uint32_t, 3>> corners_;   // of triangles, by point
+  std::vector<Vec3> rest_;                              // places at rest, by point; none without self contact
+  double slack_ = 0.0, pad_ = 0.0;                      // [m]
+  std::vector<Vec3> built_;                             // places at which the lists were made
+  std::vector<Bounds> boxes_;                           // of triangles, then
+  std::vector<std::array<std::uint32_t, 2>> partners_;  // body of triangles, body of points
+  TriangleGrid grid_;
+  std::vector<Encounter> encounters_;
+  std::vector<std::uint32_t> triangles_, found_;
+};
+
+}  // namespace aspic::reference

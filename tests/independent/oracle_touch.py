@@ -1,0 +1,179 @@
+"""Contact between cubes, written from docs/contact.md alone: every triangle is looked at in every evaluation.
+
+Arrays are (particles, 3), (points, 3) and (triangles, 3); one pair of bodies at a time.
+"""
+
+import numpy as np
+
+YOUNGS_MODULUS_PER_STIFFNESS = 7.3125
+REST_DISTANCE = 2.1  # within one body, in spacings
+
+
+def dot(a, b):
+    return (a * b).sum(-1)
+
+
+class Surface:
+    """Points and triangles of a cube of n particles along its edges, the first of which is `first`."""
+
+    def __init__(self, n, spacing, stiffness, mass, first, x):
+        self.spacing, self.kappa, self.mass = spacing, YOUNGS_MODULUS_PER_STIFFNESS * stiffness, mass
+        at = np.arange(np.prod(n)).reshape(n) + first
+        triangles, sides, edges = [], [], {}
+        for axis in range(3):
+            for high in (0, 1):
+                layer = np.moveaxis(np.take(at, -high, axis), (0, 1), (0, 1) if axis != 1 else (1, 0))
+                for i in range(layer.shape[0] - 1):      # along the next axis, then the one after
+                    for j in range(layer.shape[1] - 1):
+                        q = [layer[i, j], layer[i + 1, j], layer[i + 1, j + 1], layer[i, j + 1]]
+                        q = q if high else [q[0], q[3], q[2], q[1]]
+                        triangles += [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]
+                        sides += [2 * axis + high] * 2
+                        for a, b in zip(q, q[1:] + q[:1]):
+                            edges.setdefault((min(a, b), max(a, b)), set()).add(2 * axis + high)
+        self.triangles, self.sides = np.array(triangles), np.array(sides)
+        particles = np.unique(self.triangles)
+        sharp = np.array(sorted(e for e, at_sides in edges.items() if len(at_sides) > 1))
+        carriers, weights = [particles[:, None].repeat(2, 1)], [np.tile([1.0, 0.0], (len(particles), 1))]
+        for edge in sharp:
+            carriers.append(np.tile(edge, (2, 1)))
+            weights.append(np.array([[2 / 3, 1 / 3], [1 / 3, 2 / 3]]))
+        self.carriers, self.weights = np.concatenate(carriers), np.concatenate(weights)
+        rest = self.points(x)
+        corner_distance = np.linalg.norm(rest[:, None, None] - x[self.triangles][None], axis=-1).min(-1)
+        self.far_at_rest = corner_distance > REST_DISTANCE * spacing
+
+    def points(self, values):
+        return (values[self.carriers] * self.weights[..., None]).sum(1)
+
+
+def nearest(p, a, b, c):
+    """Weights of corners b and c at the place of each triangle nearest to each point, and whether it is in the face."""
+    ab, ac = b - a, c - a
+    d1, d2 = dot(ab, p - a), dot(ac, p - a)
+    d3, d4 = dot(ab, p - b), dot(ac, p - b)
+    d5, d6 = dot(ab, p - c), dot(ac, p - c)
+    va, vb, vc = d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t = (d4 - d3) / ((d4 - d3) + (d5 - d6))
+        regions = [
+            ((d1 <= 0) & (d2 <= 0), 0, 0), ((d3 >= 0) & (d4 <= d3), 1, 0),
+            ((vc <= 0) & (d1 >= 0) & (d3 <= 0), d1 / (d1 - d3), 0), ((d6 >= 0) & (d5 <= d6), 0, 1),
+            ((vb <= 0) & (d2 >= 0) & (d6 <= 0), 0, d2 / (d2 - d6)), ((va <= 0) & (d4 >= d3) & (d5 >= d6), 1 - t, t),
+        ]
+        wb = np.select([r[0] for r in regions], [np.broadcast_to(r[1], d1.shape) for r in regions], vb / (va + vb + vc))
+        wc = np.select([r[0] for r in regions], [np.broadcast_to(r[2], d1.shape) for r in regions], vc / (va + vb + vc))
+    return wb, wc, ~np.logical_or.reduce([r[0] for r in regions])
+
+
+class Touch:
+    """Contact of a step: made for a world once, told of each step's start."""
+
+    def __init__(self, world, surfaces, contact):
+        self.world, self.surfaces = world, surfaces
+        self.mu = float(contact["body-friction"])
+        self.gap, self.zeta = float(contact["body-gap"]), float(contact["body-damping"])
+        self.pairs = [(a, b) for a in range(len(surfaces)) for b in range(len(surfaces))
+                      if (contact["self"] if a == b else contact["bodies"])]
+        self.eased, self.steps, self.touched = {}, 0, False
+        self.begin(world.x, world.v)  # overlaps in the initial state
+        self.steps = 0
+        for pair, point, d in zip(*(self.contacts(world.x, world.v)[key] for key in ("pair", "point", "d"))):
+            self.eased[pair, point] = min(d, self.eased.get((pair, point), np.inf))
+        self.steps = -1
+
+    def constants(self, a, b):
+        A, B = self.surfaces[a], self.surfaces[b]
+        s = min(A.spacing, B.spacing)
+        k = 2 * A.kappa * B.kappa / (A.kappa + B.kappa)
+        return k, 2 * self.zeta * np.sqrt(k / (1 / A.mass + 1 / B.mass)), s, self.gap * s, (0.5 if a == b else 1.0) * s
+
+    def begin(self, x, v):
+        self.v0, self.steps = v, self.steps + 1
+        self.candidates = {}
+        for a, b in self.pairs:
+            *_, s, reach, depth = self.constants(a, b)
+            P, corners = self.surfaces[a].points(x)[:, None], x[self.surfaces[b].triangles]
+            margin = max(depth, reach) + 0.5 * s
+            holds = ((P >= corners.min(1) - margin) & (P <= corners.max(1) + margin)).all(-1)
+            self.candidates[a, b] = holds & self.surfaces[a].far_at_rest if a == b else holds
+
+    def contacts(self, x, v):
+        found = {key: [] for key in ("pair", "point", "index", "weight", "n", "d", "reach", "push")}
+        for pair in self.pairs:
+            for contact in self.of_pair(*pair, x, v):
+                for key, value in contact.items():
+                    found[key].append(value)
+        return found
+
+    def normals(self, surface, x):
+        corners = x[surface.triangles]
+        g = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        sums = np.zeros_like(x)
+        for corner in range(3):
+            np.add.at(sums, surface.triangles[:, corner], g)
+        return surface.points(sums)
+
+    def of_pair(self, a, b, x, v):
+        k, c, s, reach, depth = self.constants(a, b)
+        A, B = self.surfaces[a], self.surfaces[b]
+        P, corners = A.points(x), x[B.triangles]
+        g = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        N = g / np.linalg.norm(g, axis=-1, keepdims=True)
+        eligible = self.candidates[a, b] & (self.normals(A, x) @ g.T < 0)
+        wb, wc, face = nearest(P[:, None], *(corners[None, :, i] for i in range(3)))
+        e = P[:, None] - corners[None, :, 0] - wb[..., None] * (corners[:, 1] - corners[:, 0]) - wc[..., None] * (corners[:, 2] - corners[:, 0])
+        L, z = np.linalg.norm(e, axis=-1), dot(e, N)
+        straight = np.where(face, 1.0, np.abs(z) / np.where(L > 0, L, 1))
+
+        def pick(point, among):
+            least = np.where(among, L[point], np.inf).min()
+            if np.isinf(least):
+                return None
+            near = np.flatnonzero(among & (L[point] <= least + 2e-6 * s))
+            return int(min(near, key=lambda t: (-straight[point, t], L[point, t])))
+
+        for point in np.flatnonzero(eligible.any(1) & (np.where(eligible, L, np.inf).min(1) <= depth)):
+            first = pick(point, eligible[point])
+            chosen = []
+            if (L[point, first] < reach if z[point, first] >= 0
+                    else L[point, first] <= depth and -z[point, first] >= 0.7 * L[point, first]):
+                chosen.append(first)
+            for side in sorted(set(B.sides[eligible[point]]) - {B.sides[first]}):
+                t = pick(point, eligible[point] & (B.sides == side))
+                if 0 <= z[point, t] and L[point, t] < reach and z[point, t] >= 0.9 * L[point, t]:
+                    chosen.append(t)
+            for t in chosen:
+                d = np.copysign(L[point, t], 1 if z[point, t] >= 0 else -1)
+                n = N[t] if face[point, t] or d == 0 else e[point, t] / d
+                d = z[point, t] if face[point, t] else d
+                index = np.concatenate([A.carriers[point], B.triangles[t]])
+                weight = np.concatenate([A.weights[point], -np.array([1 - wb[point, t] - wc[point, t], wb[point, t], wc[point, t]])])
+                start = self.eased.get(((a, b), point), np.inf)
+                far = min(reach, start + s * self.steps * self.world.h)
+                u = n @ (weight @ v[index])
+                yield {"pair": (a, b), "point": point, "index": index, "weight": weight, "n": n, "d": d, "reach": far,
+                       "push": max(0.0, k * (far - d) - c * u)}
+
+    def forces(self, x, v, f):
+        """The forces f with pushes and friction."""
+        found = self.contacts(x, v)
+        if not found["push"]:
+            return f
+        index, weight, n = (np.array(found[key]) for key in ("index", "weight", "n"))
+        push = np.array(found["push"])
+        f, h, w = f.copy(), self.world.h, self.world.w
+        np.add.at(f, index, weight[..., None] * (push[:, None] * n)[:, None])
+        v1 = self.v0 + h * w[:, None] * f
+        share = np.zeros(len(x))
+        np.add.at(share, index, np.abs(weight) * push[:, None])
+        on = push > 0
+        W = np.where(on, (np.abs(weight) * w[index] * share[index]).sum(1) / np.where(on, push, 1), 0)
+        r = (weight[..., None] * v1[index]).sum(1)
+        slip = r - dot(r, n)[:, None] * n
+        J = slip / np.where(W > 0, W, np.inf)[:, None]
+        size, cone = np.linalg.norm(J, axis=1), self.mu * h * push
+        J *= np.where(size > cone, cone / np.where(size > 0, size, 1), 1)[:, None]
+        np.add.at(f, index, weight[..., None] * (-J / h)[:, None])
+        self.touched = True
+        return f
