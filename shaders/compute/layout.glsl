@@ -60,6 +60,8 @@
 #define LOCATION_BALL_KIND 4    // KIND_… of the candidates that a dispatch looks at
 #define LOCATION_WINDOW 5       // what a dispatch over a part of the items sees: compute/dispatch.glsl
 #define LOCATION_FIRST_SPRING 6
+#define LOCATION_TOUCH_COUNT 7  // encounters, or particles, of a dispatch
+#define LOCATION_TOUCH_NUMBER 8  // seconds since the initial state, the square of a way [m²] or friction μ
 
 // Of the items of a pass, each COUNTED_ITEMS-th and the last count themselves, so that a device which drops some is found out.
 #define COUNTED_ITEMS 4096u
@@ -163,6 +165,51 @@ struct BallWork {
   uint work_padding0, work_padding1, work_padding2;
 };
 
+// A first contact and one of each other side of a body: at most so many sides may a body have.
+#define TOUCH_SIDES 6u
+#define TOUCH_RECORDS 6u
+// Flags of an encounter.
+#define TOUCH_CLOSED 1u    // the triangles' body has an inside
+#define TOUCH_OPPOSING 2u  // only faces that turn to the point count
+
+// A point and triangles of one body near it, in src/gpu_solver/touch_lists.h.
+struct TouchEncounter {
+  uint carrier0, carrier1;  // particles that carry the point, twice the same of a particle's own
+  uint flags;               // TOUCH_…
+  uint near_first;          // triangles near it, in the words
+  uint near_count;
+  uint normals_first0, normals_count0;  // triangles at the carriers, likewise
+  uint normals_first1, normals_count1;
+  float carrier_weight0, carrier_weight1;
+  float start_distance;  // d₀ in the initial state where they overlapped [m], else far above ρ
+  float touch_stiffness;  // k [N/m]
+  float touch_damping;    // c [N·s/m]
+  float spacing;          // s [m]
+  float reach;            // ρ [m]
+  float depth;            // D [m]
+  float margin;           // by which boxes of candidates are widened [m]
+  float tie;              // distances that differ by less are equal [m]
+  float far_away;         // what is farther cannot touch [m]
+};
+
+// A contact.
+struct TouchRecord {
+  vec4 normal;   // n; w: push f [N]
+  vec4 rub;      // friction on the point [N]; w: unused
+  uvec4 corner;  // particles; w: contacts of the encounter, in its first record
+  vec4 share;    // weights of the corners; w: unused
+};
+
+// A particle that contacts may name: as a carrier of points, and as a corner.
+struct TouchParticle {
+  uint listed;       // which
+  uint own_first;    // encounters of its points, in the words
+  uint own_count;
+  uint visit_first;  // encounters with triangles at it, likewise
+  uint visit_count;
+  uint touch_padding0, touch_padding1, touch_padding2;
+};
+
 // One stage of an explicit method, see src/model/integrator.h.
 struct Stage {
   float advance;    // h · advance: from the start of the step to the next stage [s]
@@ -203,7 +250,8 @@ struct Control {
   uint full_step;     // first step whose contacts found no room, or NO_STEP: it has to be repeated with more
   uint overrun;       // KERNEL_… that had a loop of more than MAX_ROUNDS, or 0
   uint passes;        // items that counted themselves since the words were written: a device may drop some
-  uint control_padding0, control_padding1, control_padding2;
+  uint stale;         // 1: bodies have moved so far that lists of what is near them do not hold any more
+  uint control_padding0, control_padding1;
 };
 
 // The state of implicit Euler's solve on the device, which decides by itself what the next dispatch does.

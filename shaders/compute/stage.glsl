@@ -7,7 +7,13 @@
 
 layout(std430, binding = BINDING_START_STATE) restrict readonly buffer StartState { Particle start_state[]; };
 layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageState { Particle stage_state[]; };
+// With ASPIC_TOUCH contact between bodies comes between pulls and ground: the kernel of forces leaves them in the place of
+// the next velocity, from where touch_finish.comp, with ASPIC_TOUCH_FINISH, goes on.
+#ifdef ASPIC_TOUCH_FINISH
+layout(std430, binding = BINDING_OUT_STATE) restrict buffer OutState { Particle out_state[]; };
+#else
 layout(std430, binding = BINDING_OUT_STATE) restrict writeonly buffer OutState { Particle out_state[]; };
+#endif
 layout(std430, binding = BINDING_STAGE_SUMS) restrict buffer StageSums { Particle stage_sums[]; };
 
 void finish_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
@@ -23,10 +29,9 @@ void finish_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
   out_state[AT(i)] = Particle(vec4(x, start.position.w), vec4(v, start.velocity.w));
 }
 
-// p: the particle in this stage; f_springs: gravity and springs [N].
-void finish_stage(uint i, Particle p, vec3 f_springs) {
-  count_item(i, particle_count);
-  precise vec3 f = with_pulls(i, p.position.xyz, p.velocity.xyz, f_springs);
+// p: the particle in this stage; f_in: all forces but the ground's [N].
+void end_stage(uint i, Particle p, vec3 f_in) {
+  precise vec3 f = f_in;
 #ifdef ASPIC_ONE_STAGE
   Particle start = p;
 #else
@@ -60,5 +65,16 @@ void finish_stage(uint i, Particle p, vec3 f_springs) {
   precise vec3 moves = drift == DRIFT_MEAN_VELOCITY ? 0.5 * (p.velocity.xyz + next_v) : p.velocity.xyz;
   precise vec3 next_x = start.position.xyz + stage.advance * moves;
   out_state[AT(i)] = Particle(vec4(next_x, start.position.w), vec4(next_v, start.velocity.w));
+#endif
+}
+
+// f_springs: gravity and springs [N].
+void finish_stage(uint i, Particle p, vec3 f_springs) {
+  count_item(i, particle_count);
+  precise vec3 f = with_pulls(i, p.position.xyz, p.velocity.xyz, f_springs);
+#ifdef ASPIC_TOUCH
+  out_state[AT(i)] = Particle(p.position, vec4(f, p.velocity.w));
+#else
+  end_stage(i, p, f);
 #endif
 }

@@ -16,6 +16,9 @@ struct vec4 {
 struct uvec2 {
   uint x = 0, y = 0;
 };
+struct uvec4 {
+  uint x = 0, y = 0, z = 0, w = 0;
+};
 
 #include "shared/layout.glsl"
 

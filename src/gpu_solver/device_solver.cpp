@@ -38,8 +38,8 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
   ASPIC_TRY(const layout::Simulation block, simulation_block(*model_));
   const std::uint64_t state_bytes = std::uint64_t{model_->particle_count()} * sizeof(layout::Particle);
   for (Buffer& state : states_) {
-    // Balls may meet any particle, so their passes see complete states.
-    if (model_->ball_count() > 0) {
+    // Balls and other bodies may meet any particle, so their passes see complete states.
+    if (model_->ball_count() > 0 || bodies_touch(*model_)) {
       ASPIC_TRY(state, Buffer::create(context_, "particle state", state_bytes));
     } else {
       ASPIC_TRY(state, sliced("particle state", state_bytes));
@@ -75,6 +75,7 @@ void DeviceSolver::take(const ConstStateView& state, std::uint64_t step) {
   const std::vector<layout::Particle> particles = packed_particles(*model_, state);
   states_[0].upload_items(particles);
   balls_.load(state, step);
+  touch_.forget();
   current_ = 0;
   ball_slot_ = 0;
   base_step_ = step;
@@ -140,6 +141,7 @@ Status DeviceSolver::take_constants(SharedModel next) {
   simulation_.upload_items(std::span(&block, 1));
   poses_.set_model(*model_);
   balls_.set_model(*model_);
+  touch_.set_model(*model_);
   if (state) take(view_of(std::as_const(*state)), state->step);
   return context_.check();
 }

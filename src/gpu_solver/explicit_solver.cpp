@@ -66,6 +66,12 @@ class ExplicitSolver final : public DeviceSolver {
   Result<std::uint64_t> take_look();
   void forget_queues();
   std::uint32_t passes_per_step() const;
+  static std::uint32_t counted(std::uint32_t items) { return items > 0 ? COUNTED_OF(items) : 0u; }
+  std::uint32_t counted_balls() const { return counted(model_->ball_count()); }
+  /// Since the initial state [s], as in src/cpu_reference/body_contact.cpp.
+  float time_of(std::uint32_t step_index) const {
+    return static_cast<float>(static_cast<double>(base_step_ + step_index) * model_->simulation.timestep);
+  }
 
   const Staged& method_;
   Buffer sums_, control_, forces_;
@@ -103,6 +109,12 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   ASPIC_TRY(sums_, sliced("stage sums", keeps_sums(method_) ? state_bytes : 0));
   ASPIC_TRY(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
   looks_.emplace(context_, sizeof(layout::Control));
+  if (bodies_touch(*model_) && windowed())
+    return advised(
+        fail(ErrorCode::scene_rejected,
+             "contact of bodies needs the particles in one block of {} memory, and there are {} of them.",
+             context_.info().renderer, model_->particle_count()),
+        {use_backend("cpu")});
   fast_ = options.spring_arithmetic == Arithmetic::fast;
   KernelOptions stage_kernels = kernels;
   if (fast_) stage_kernels.defines.push_back({"ASPIC_FAST", "1"});
@@ -121,6 +133,9 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                         seen_by_springs(*springs_)));
   }
   if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
+  ASPIC_CHECK(touch_.build(context_, *model_, kernels, stage_kernels, {constants(), control},
+                           {pulls_.binding(), poses_.binding()}));
+  if (touch_.any()) stage_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
   const std::uint32_t by_device = context_.info().is_software ? software_run : 1;
   const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
   if (run > 1) stage_kernels.defines.push_back({"ASPIC_WIDE_LOADS", "1"});
@@ -160,6 +175,7 @@ void ExplicitSolver::dispatch(const std::optional<SlicedPass>& pass, Kind kind,
 void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
   poses_.cover(step_index, 1);
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
+  if (touch_.any()) touch_.queue_start(states_[current_], step_index);
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
   for (const auto* pass : {&spring_pass_, &lattice_pass_, &particle_pass_})
     if (*pass) (*pass)->program().set(LOCATION_STEP, step_index);
@@ -170,6 +186,8 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     for (const auto* pass : {&lattice_pass_, &particle_pass_})
       if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
     constexpr std::uint64_t particle = sizeof(layout::Particle), force = sizeof(layout::vec4);
+    const TouchPasses::States touching = {&states_[current_], &states_[stage_state], &states_[out], &sums_};
+    if (touch_.any()) touch_.queue_find(touching, step_index, time_of(step_index));
     const SlicedArray stage = {BINDING_STAGE_STATE, &states_[stage_state], Over::particles, particle};
     const std::array<SlicedArray, 6> arrays = {
         {stage,
@@ -186,8 +204,10 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     const bool leaves = last_of_queue && s + 1 == stages && !balls_.any();
     const ReadBy readers = leaves ? anyone : ReadBy::compute_pass;
     // Cubes and all else write different particles.
-    dispatch(lattice_pass_, lattices_kind, arrays, particle_pass_ ? ReadBy::nobody : readers);
-    dispatch(particle_pass_, particles_kind, arrays, readers);
+    const ReadBy after = touch_.any() ? ReadBy(ReadBy::compute_pass) : readers;
+    dispatch(lattice_pass_, lattices_kind, arrays, particle_pass_ ? ReadBy::nobody : after);
+    dispatch(particle_pass_, particles_kind, arrays, after);
+    if (touch_.any()) touch_.queue_act(touching, step_index, s, readers);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_slot_,
@@ -210,7 +230,10 @@ Status ExplicitSolver::carry_out(std::uint64_t steps, bool wait) {
       steps += *undone;
     } else if (steps > 0) {
       keep_counting();
-      steps -= queue_steps(static_cast<std::uint32_t>(std::min<std::uint64_t>(steps, depth_.next())));
+      if (!touch_.fresh()) ASPIC_CHECK(touch_.refresh(states_[current_]));
+      std::uint64_t worth = depth_.next();
+      if (touch_.any()) worth = std::min(worth, touch_.patience());
+      steps -= queue_steps(static_cast<std::uint32_t>(std::min(steps, worth)));
     } else {
       break;
     }
@@ -248,12 +271,15 @@ Result<std::uint64_t> ExplicitSolver::take_look() {
                                    : queue.count;
   // A step is found to fail after the last of its passes that count. Unsigned, so that a counter that wraps
   // makes no difference.
-  const std::uint32_t least = passes_before_ + (good + (full || bad ? 1u : 0u)) * passes_per_step();
+  std::uint32_t least = passes_before_ + (good + (full || bad ? 1u : 0u)) * passes_per_step();
+  // Balls stay where they are in a step that began with lists that do not hold any more.
+  if (full && control.stale != 0) least -= counted_balls();
   if (good > queue.count || control.passes - least > (1u << 31)) {
     unusable_ = idle_device(context_, *model_, least);
     return *unusable_;
   }
   passes_before_ = least;
+  if (touch_.any()) touch_.held(good);
   if (!full && !bad) return std::uint64_t{0};
   const std::uint64_t undone = std::uint64_t{steps_since_} - queue.first_step - good;
   current_ = (queue.first_state + good) % 3;
@@ -262,7 +288,10 @@ Result<std::uint64_t> ExplicitSolver::take_look() {
   forget_queues();
   if (full) {
     // The step is repeated from the state it began with, where nothing was written.
-    ASPIC_CHECK(balls_.grow());
+    if (control.stale != 0)
+      touch_.forget();
+    else
+      ASPIC_CHECK(balls_.grow());
     restart();
   } else {
     divergence_ = divergence_from(control.bad_particle, control.bad_step);
@@ -278,10 +307,9 @@ void ExplicitSolver::forget_queues() {
 /// Items of a step that count themselves: of each stage springs and particles, and balls in flight.
 std::uint32_t ExplicitSolver::passes_per_step() const {
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
-  const auto counted = [](std::uint32_t items) { return items > 0 ? COUNTED_OF(items) : 0u; };
   return stages * counted(model_->particle_count()) +
          (spring_pass_ ? stages * counted(static_cast<std::uint32_t>(spring_count(*model_))) : 0u) +
-         counted(model_->ball_count());
+         counted_balls();
 }
 
 Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, SharedModel model,

@@ -11,7 +11,6 @@
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
-#include "model/touch_surface.h"
 
 namespace aspic {
 namespace {
@@ -42,9 +41,6 @@ const DeviceMethod& device_method(Integrator integrator, std::uint64_t particles
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, SharedModel shared_model,
                                                    const GpuOptions& options) {
   const Model& model = *shared_model;
-  if (bodies_touch(model))
-    return advised(fail(ErrorCode::scene_rejected, "the gpu backend does not have contact of bodies."),
-                   {{RemedyKind::use_backend, {"cpu"}}});
   const gl::Current here(context);
   ASPIC_CHECK(here.status());
   if (context.lost()) return context.lost_error();

@@ -11,7 +11,6 @@
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/counts.h"
-#include "model/touch_surface.h"
 #include "run/window_host.h"
 
 namespace aspic {
@@ -122,7 +121,7 @@ constexpr BackendRow table[] = {
      [](const Model& model, const BackendChoice& choice) -> std::optional<std::uint64_t> {
        return gpu_bytes(model, choice.force_path);
      },
-     gpu_suitability, true, false, false},
+     gpu_suitability, true},
     {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
      [](const Model& model, const BackendChoice&) { return cpu_bytes(model); },
      [](const gl::Context*) {
@@ -263,14 +262,11 @@ Result<std::filesystem::path> shader_directory() {
   return std::filesystem::path(value);
 }
 
-AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window,
-                                     const Model* model) {
+AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window) {
   AutomaticChoice result;
   for (const BackendRow& row : table) {
     const Ability* const lacks = lacking(row, choice);
-    const bool touches = row.touch || !model || !bodies_touch(*model);
-    Suitability found = lacks || !touches ? Suitability{} : row.suitability(window);
-    if (!touches) found.reason = fmt::format("the {} does not have contact of bodies", row.name);
+    Suitability found = lacks ? Suitability{} : row.suitability(window);
     if (lacks) found.reason = only_those_with(*lacks);
     // The backend that would have come first says why another is taken.
     if (result.reason.empty() || (found.suits && !found.reason.empty()))
@@ -374,7 +370,7 @@ Status check_choice(const BackendChoice& choice) {
 Result<Backend> make_backend(const BackendChoice& choice, SharedModel model, const SolverHost& host) {
   ASPIC_CHECK(check_choice(choice));
   AutomaticChoice automatic;
-  if (!choice.row) automatic = choose_automatically(choice, host.context, model.get());
+  if (!choice.row) automatic = choose_automatically(choice, host.context);
   const BackendRow& row = choice.row ? *choice.row : *automatic.row;
   if (choice.force_path != ForcePath::automatic && !has_path(row, choice.force_path)) {
     const auto names = names_where([&](const BackendRow& r) { return has_path(r, choice.force_path); });

@@ -39,7 +39,6 @@ struct BackendRow {
   Suitability (*suitability)(const gl::Context* window) = nullptr;
   bool fast = false;      ///< it has fast arithmetic
   bool threaded = false;  ///< its number of threads can be chosen
-  bool touch = true;      ///< it has contact of bodies
 
   std::span<const ForcePathRow> force_paths() const {
     return paths ? paths() : std::span<const ForcePathRow>();

@@ -40,8 +40,7 @@ struct AutomaticChoice {
 };
 /// The first row of the table that has what the choice asks for and suits; `window` as for
 /// BackendRow::suitability. The choice has passed check_choice().
-AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window = nullptr,
-                                     const Model* model = nullptr);
+AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window = nullptr);
 
 /// Makes the solver of a choice, `auto` included, at the model's initial state. Errors: as check_choice and
 /// BackendRow::make.

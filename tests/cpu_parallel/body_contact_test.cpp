@@ -8,39 +8,10 @@
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
 #include "support/integrator_names.h"
-#include "support/model_building.h"
+#include "support/pile.h"
 
 namespace aspic {
 namespace {
-
-/// Two cubes of unlike material that land on the ground and on each other, a beam across them and a cloth
-/// over all, each of which is soon touched.
-ModelSettings pile(Integrator integrator, ContactModel contact) {
-  ModelSettings settings = test::low_cube(5, integrator, contact);
-  settings.contact.bodies = true;
-  settings.cubes[0].edge_length = 2.0;
-  settings.cubes[0].position = {0.0, 1.05, 0.0};
-  settings.cubes[0].rotation = {{0.0, 1.0, 0.0}, 10.0};
-  settings.cubes[0].velocity = {0.5, -1.0, 0.0};
-  CubeSettings upper = settings.cubes[0];
-  upper.particles_per_edge = 4;
-  upper.particle_mass = 3.0;
-  upper.position = {0.3, 3.15, 0.2};
-  upper.rotation = {{1.0, 0.3, 0.7}, 8.0};
-  settings.cubes.push_back(upper);
-  CubeSettings beam = settings.cubes[0];
-  beam.particles = {9, 2, 3};
-  beam.edge_length = 3.0;
-  beam.position = {2.4, 1.6, 0.0};
-  beam.pinned.names = {"right"};
-  settings.cubes.push_back(beam);
-  ClothSettings& cloth = settings.cloths.emplace_back();
-  cloth.particles = {9, 9};
-  cloth.size = {3.0, 3.0};
-  cloth.position = {0.2, 4.3, 0.1};
-  cloth.rotation = {{1.0, 0.0, 0.0}, 90.0};
-  return settings;
-}
 
 State after(const Model& model, std::uint64_t steps) {
   const auto solver = std::move(*make_reference_solver(model, Precision::single));
@@ -61,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(CpuSolver, BodiesOnTheCpu, testing::ValuesIn(explicit_i
 TEST_P(BodiesOnTheCpu, TouchWithTheReferencesBits) {
   for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
     SCOPED_TRACE(name_of(contact));
-    ModelSettings settings = pile(GetParam(), contact);
+    ModelSettings settings = test::pile(GetParam(), contact);
     const State expected = after(test::build(settings), 70);
     for (const unsigned threads : {1u, 2u, 5u})
       EXPECT_EQ(hash_on_cpu(test::build(settings), 70, threads), state_hash_text(expected));
@@ -71,7 +42,7 @@ TEST_P(BodiesOnTheCpu, TouchWithTheReferencesBits) {
 }
 
 TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsOnEveryInstructionSet) {
-  const Model model = test::build(pile(Integrator::velocity_verlet, ContactModel::coulomb));
+  const Model model = test::build(test::pile(Integrator::velocity_verlet, ContactModel::coulomb));
   const std::string expected = state_hash_text(after(model, 70));
   for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
     hwy::SetSupportedTargetsForTest(targets & -targets);
@@ -81,7 +52,7 @@ TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsOnEveryInstructionSet) {
 }
 
 TEST(BodiesOnTheCpu, TouchThemselvesWithTheReferencesBits) {
-  ModelSettings settings = pile(Integrator::symplectic_euler, ContactModel::coulomb);
+  ModelSettings settings = test::pile(Integrator::symplectic_euler, ContactModel::coulomb);
   settings.contact.self = true;
   const Model model = test::build(settings);
   EXPECT_EQ(hash_on_cpu(model, 200, 2), state_hash_text(after(model, 200)));
@@ -89,7 +60,7 @@ TEST(BodiesOnTheCpu, TouchThemselvesWithTheReferencesBits) {
 
 // Pins, pulls and other constants reach contact too.
 TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsUnderInputsAndOtherConstants) {
-  ModelSettings settings = pile(Integrator::midpoint, ContactModel::coulomb);
+  ModelSettings settings = test::pile(Integrator::midpoint, ContactModel::coulomb);
   const Model model = test::build(settings);
   settings.contact.body_friction = 0.9;
   settings.contact.body_gap = 0.15;

@@ -51,6 +51,17 @@ ModelSettings with_net(ModelSettings settings) {
   return settings;
 }
 
+/// Another cube strikes the first from above, so far away that at first nothing is near.
+ModelSettings struck(ModelSettings settings) {
+  settings.contact.bodies = true;
+  CubeSettings other = settings.cubes[0];
+  other.position = other.position + Vec3{0.3, 6.0, 0.2};
+  other.rotation = {{0.0, 1.0, 0.0}, 20.0};
+  other.velocity = {5.0, -45.0, 1.0};
+  settings.cubes.push_back(other);
+  return settings;
+}
+
 class Variants {
  public:
   void add(const std::string& scene, const ModelSettings& settings, const GpuOptions& options) {
@@ -126,6 +137,10 @@ const std::vector<KernelVariant>& kernel_variants() {
         variants.add("plane, a ball in a crowd", crowded(method), searching);
       }
     }
+    // Bodies that touch, on every path and with more than one stage.
+    variants.add_paths("plane, struck by a cube",
+                       struck(with_net(cube_on(Integrator::explicit_euler, plane))), exact);
+    variants.add("plane, struck by a cube", struck(cube_on(Integrator::midpoint, plane)), exact);
     ModelSettings balls = with_balls(cube_on(Integrator::explicit_euler, plane));
     for (const TerrainShapeRow& shape : terrain_shapes) balls.terrain.emplace_back().shape = shape.value;
     variants.add("all terrains, with balls", balls, exact);

@@ -1,0 +1,21 @@
+// What the kernels of contact between bodies share (docs/contact.md): encounters, which are points and triangles that the
+// host found near each other, and the contacts made of them.
+layout(location = LOCATION_TOUCH_COUNT) uniform uint touch_count;
+
+layout(std430, binding = BINDING_TOUCH_ENCOUNTERS) restrict readonly buffer Encounters { TouchEncounter encounters[]; };
+layout(std430, binding = BINDING_TOUCH_RECORDS) restrict buffer Records { TouchRecord records[]; };
+
+uint first_record(uint encounter) { return encounter * TOUCH_RECORDS; }
+
+// Σ weight·y over the carriers of a point; of one carrier its own.
+vec3 over_carriers(TouchEncounter of, vec3 y_0, vec3 y_1) {
+  if (of.carrier0 == of.carrier1) return y_0;
+  precise vec3 sum = of.carrier_weight0 * y_0 + of.carrier_weight1 * y_1;
+  return sum;
+}
+
+// Σ weight·y over the corners of a triangle.
+vec3 over_corners(vec3 share, vec3 y_0, vec3 y_1, vec3 y_2) {
+  precise vec3 sum = (share.x * y_0 + share.y * y_1) + share.z * y_2;
+  return sum;
+}

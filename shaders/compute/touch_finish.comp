@@ -1,0 +1,12 @@
+// The rest of a stage of particles whose forces are complete but for the ground's (ASPIC_TOUCH in compute/stage.glsl).
+#define ASPIC_TOUCH_FINISH
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/control.glsl"
+#include "compute/stage.glsl"
+
+void main() {
+  uint i = item_index();
+  if (i >= particle_count || halted()) return;
+  end_stage(i, stage_state[i], out_state[i].velocity.xyz);
+}

@@ -1,0 +1,136 @@
+#include "gpu_solver/touch_lists.h"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+#include "cpu_reference/body_contact.h"
+
+namespace aspic {
+namespace {
+
+/// A kernel walks over the triangles near a point thirteen times, and over the encounters of a particle and
+/// the contacts of each: within the rounds that drivers allow (MAX_ROUNDS).
+constexpr std::size_t most_near = 4000, most_encounters = 5000;
+
+/// Far above any ρ: where bodies did not overlap.
+constexpr float nowhere_near = 3e38f;
+
+Status too_many(std::size_t count, std::string_view of, std::size_t most) {
+  return advised(
+      fail(ErrorCode::scene_rejected,
+           "bodies touch in too many places at once: {} {}, and the gpu backend takes {}.", count, of, most),
+      {use_backend("cpu")});
+}
+
+}  // namespace
+
+TouchLists::TouchLists(const Model& model)
+    : surfaces_(touch_surfaces(model)), contact_(model.contact), near_(model, surfaces_) {
+  const reference::BodyContact<double> contact(model);
+  for (const auto& [point, body, d] : contact.eased())
+    starts_.push_back({point, body, static_cast<float>(d)});
+}
+
+std::vector<layout::uvec4> TouchLists::triangles() const {
+  std::vector<layout::uvec4> all;
+  for (const TouchTriangle& t : surfaces_.triangles)
+    all.push_back({t.corner[0], t.corner[1], t.corner[2], t.side});
+  return all;
+}
+
+std::uint32_t TouchLists::body_of(std::uint32_t point) const {
+  const auto after = std::ranges::upper_bound(surfaces_.bodies, point, {}, &TouchBody::first_point);
+  return static_cast<std::uint32_t>(after - surfaces_.bodies.begin()) - 1;
+}
+
+/// Without its triangles.
+layout::TouchEncounter TouchLists::encounter_of(const reference::Encounter& near) const {
+  const TouchPoint& point = surfaces_.points[near.point];
+  const std::uint32_t own = body_of(near.point);
+  const TouchBody &points = surfaces_.bodies[own], &faces = surfaces_.bodies[near.body];
+  const TouchPair pair = touch_pair(contact_, points, faces, own == near.body);
+  layout::TouchEncounter made{};
+  made.carrier0 = point.carrier[0];
+  made.carrier1 = point.carrier[1];
+  made.carrier_weight0 = static_cast<float>(point.weight[0]);
+  made.carrier_weight1 = static_cast<float>(point.weight[1]);
+  if (faces.closed) made.flags |= TOUCH_CLOSED;
+  if (faces.closed && points.closed) made.flags |= TOUCH_OPPOSING;
+  const auto& from = surfaces_.from;
+  made.normals_first0 = from[point.own[0]];
+  made.normals_count0 = from[point.own[0] + 1] - from[point.own[0]];
+  made.normals_first1 = from[point.own[1]];
+  made.normals_count1 = from[point.own[1] + 1] - from[point.own[1]];
+  made.touch_stiffness = static_cast<float>(pair.stiffness);
+  made.touch_damping = static_cast<float>(pair.damping);
+  made.spacing = static_cast<float>(pair.spacing);
+  made.reach = static_cast<float>(pair.reach);
+  made.depth = static_cast<float>(pair.depth);
+  made.margin = static_cast<float>(pair.margin);
+  made.tie = static_cast<float>(2e-6 * pair.spacing);
+  made.far_away = std::max(made.reach, made.depth) + 0.01f * made.spacing;
+  made.start_distance = nowhere_near;
+  const auto key = [](const auto& of) { return std::tuple(of.point, of.body); };
+  const auto start = std::ranges::lower_bound(starts_, key(near), {}, key);
+  if (start != starts_.end() && key(*start) == key(near)) made.start_distance = start->distance;
+  return made;
+}
+
+Status TouchLists::make(std::span<const layout::Particle> particles) {
+  std::vector<Vec3> places(surfaces_.points.size());
+  built_.clear();
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    if (!surfaces_.points[p].single()) continue;
+    const std::uint32_t i = surfaces_.points[p].carrier[0];
+    const layout::vec4& x = particles[i].position;
+    places[p] = {x.x, x.y, x.z};
+    built_.push_back({std::bit_cast<std::uint32_t>(x.x), std::bit_cast<std::uint32_t>(x.y),
+                      std::bit_cast<std::uint32_t>(x.z), i});
+  }
+  near_.make(places);
+  words_ = surfaces_.at_particle;
+  encounters_.clear();
+  for (const reference::Encounter& near : near_.encounters()) {
+    if (near.count > most_near) return too_many(near.count, "triangles near one point", most_near);
+    layout::TouchEncounter made = encounter_of(near);
+    made.near_first = static_cast<std::uint32_t>(words_.size());
+    made.near_count = near.count;
+    const auto triangles = near_.triangles(near);
+    words_.insert(words_.end(), triangles.begin(), triangles.end());
+    encounters_.push_back(made);
+  }
+  return list_particles();
+}
+
+/// For each particle that an encounter may name, the encounters that do, as a carrier and as a corner.
+Status TouchLists::list_particles() {
+  std::vector<Named> named;
+  for (std::uint32_t e = 0; e < encounters_.size(); ++e) {
+    const layout::TouchEncounter& of = encounters_[e];
+    named.push_back({of.carrier0, e, false});
+    if (of.carrier1 != of.carrier0) named.push_back({of.carrier1, e, false});
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t n = of.near_first; n < of.near_first + of.near_count; ++n)
+      for (const std::uint32_t corner : surfaces_.triangles[words_[n]].corner) corners.push_back(corner);
+    std::ranges::sort(corners);
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    for (const std::uint32_t corner : corners) named.push_back({corner, e, true});
+  }
+  std::ranges::sort(named, {}, [](const Named& n) { return std::tuple(n.particle, n.visits, n.encounter); });
+  listed_.clear();
+  for (const Named& n : named) {
+    const auto at = static_cast<std::uint32_t>(words_.size());
+    if (listed_.empty() || listed_.back().listed != n.particle)
+      listed_.push_back({n.particle, at, 0, at, 0, 0, 0, 0});
+    layout::TouchParticle& of = listed_.back();
+    if (n.visits && of.visit_count == 0) of.visit_first = at;
+    ++(n.visits ? of.visit_count : of.own_count);
+    words_.push_back(n.encounter);
+    if (std::max(of.own_count, of.visit_count) > most_encounters)
+      return too_many(std::max(of.own_count, of.visit_count), "points near one particle", most_encounters);
+  }
+  return {};
+}
+
+}  // namespace aspic

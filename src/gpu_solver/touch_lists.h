@@ -1,0 +1,60 @@
+#pragma once
+// What the kernels of contact between bodies walk over (shaders/compute/touch.glsl): points with the
+// triangles near them, and for each particle the encounters that may push it. Found on the host, for as long
+// as bodies move little.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "cpu_reference/near_triangles.h"
+#include "gpu_solver/layout.h"
+#include "model/touch_surface.h"
+
+namespace aspic {
+
+class TouchLists {
+ public:
+  /// Of a model whose bodies_touch().
+  explicit TouchLists(const Model& model);
+  TouchLists(const TouchLists&) = delete;
+  TouchLists& operator=(const TouchLists&) = delete;
+
+  /// Makes the lists for particles at these places. Error (scene_rejected): more meets in one place than a
+  /// kernel may walk over.
+  Status make(std::span<const layout::Particle> particles);
+
+  /// For the device: corners and sides of triangles, which stay; the rest as made last.
+  std::vector<layout::uvec4> triangles() const;
+  std::span<const layout::TouchEncounter> encounters() const { return encounters_; }
+  std::span<const std::uint32_t> words() const { return words_; }
+  std::span<const layout::TouchParticle> listed() const { return listed_; }
+  /// Bits of the places of all particles of surfaces; w: which particle.
+  std::span<const layout::uvec4> places() const { return built_; }
+  /// How far a particle may move from there [m].
+  double leeway() const { return near_.leeway(); }
+
+ private:
+  struct Named {
+    std::uint32_t particle, encounter;
+    bool visits;
+  };
+  layout::TouchEncounter encounter_of(const reference::Encounter& near) const;
+  std::uint32_t body_of(std::uint32_t point) const;
+  Status list_particles();
+
+  TouchSurfaces surfaces_;
+  ContactSettings contact_;
+  reference::NearTriangles near_;
+  struct Start {
+    std::uint32_t point, body;
+    float distance;
+  };
+  std::vector<Start> starts_;  // of bodies that overlap in the initial state; ascending
+  std::vector<layout::TouchEncounter> encounters_;
+  std::vector<std::uint32_t> words_;
+  std::vector<layout::TouchParticle> listed_;
+  std::vector<layout::uvec4> built_;
+};
+
+}  // namespace aspic

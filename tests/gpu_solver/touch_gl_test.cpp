@@ -1,0 +1,103 @@
+// Contact of bodies on the device: the reference's bits for every explicit method and force path, while lists
+// are made again, with balls among the bodies, from a state in mid-contact on, and without what is asked for.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "aspic/inputs.h"
+#include "cpu_reference/reference_solver.h"
+#include "gpu_solver/force_paths.h"
+#include "gpu_solver/gpu_solver.h"
+#include "support/gl_fixture.h"
+#include "support/integrator_names.h"
+#include "support/pile.h"
+
+namespace aspic {
+namespace {
+
+using test::pile;
+
+State by_reference(const Model& model, std::uint64_t steps) {
+  const auto solver = std::move(*make_reference_solver(model, Precision::single));
+  EXPECT_FALSE((*solver->advance(steps)).has_value());
+  return *solver->state();
+}
+
+class Touching : public testing::GlTest {
+ protected:
+  std::unique_ptr<GpuSolver> gpu(const Model& model, ForcePath path = ForcePath::automatic) {
+    GpuOptions options;
+    options.force_path = path;
+    auto made = make_gpu_solver(context(), model, options);
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
+    return std::move(*made);
+  }
+  State by_device(const Model& model, std::uint64_t steps, ForcePath path = ForcePath::automatic) {
+    const auto solver = gpu(model, path);
+    const auto divergence = solver->advance(steps);
+    EXPECT_TRUE(divergence.ok()) << (divergence.ok() ? "" : divergence.error().message());
+    return *solver->state();
+  }
+};
+
+// Methods take turns with paths and contact models.
+TEST_F(Touching, HasTheReferencesBitsUnderEveryMethodAndOnEveryPath) {
+  std::size_t n = 0;
+  for (const Integrator integrator : explicit_integrators) {
+    const ForcePathRow& path = force_paths()[n++ % force_paths().size()];
+    const ContactModel contact = n % 3 == 0 ? ContactModel::course : ContactModel::coulomb;
+    SCOPED_TRACE(fmt::format("{}, {}, {}", name_of(integrator), path.name, name_of(contact)));
+    ModelSettings settings = pile(integrator, contact);
+    const Model model = test::build(settings);
+    const State expected = by_reference(model, 70);
+    EXPECT_EQ(by_device(model, 70, path.path), expected);
+    settings.contact.bodies = false;
+    EXPECT_FALSE(by_reference(test::build(settings), 70) == expected) << "nothing touches";
+  }
+}
+
+TEST_F(Touching, HasTheReferencesBitsOfBodiesThatTouchThemselvesWithoutFriction) {
+  ModelSettings settings = pile(Integrator::symplectic_euler, ContactModel::coulomb);
+  settings.contact.self = true;
+  settings.contact.body_friction = 0.0;
+  const Model model = test::build(settings);
+  EXPECT_EQ(by_device(model, 120), by_reference(model, 120));
+}
+
+TEST_F(Touching, HasTheReferencesBitsWithBallsAndInputs) {
+  ModelSettings settings = pile(Integrator::midpoint, ContactModel::coulomb);
+  settings.balls.push_back({0.3, 2.0, {1.6, 2.2, 0.2}, {-3.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
+  const Model model = test::build(settings);
+  Inputs inputs;
+  inputs.pulls.push_back({30, {0.0, 2.0, 1.0}, 300.0, 10.0});
+  inputs.pinned.push_back(40);
+  const auto expected = std::move(*make_reference_solver(model, Precision::single));
+  const auto solver = gpu(model);
+  for (Solver* const each : {expected.get(), static_cast<Solver*>(solver.get())}) {
+    ASSERT_TRUE(each->advance(20).ok());
+    ASSERT_TRUE(each->set_inputs(inputs).ok());
+    ASSERT_TRUE(each->advance(50).ok());
+  }
+  EXPECT_EQ(*solver->state(), *expected->state());
+}
+
+// A state in mid-contact, other constants, and steps asked for one by one.
+TEST_F(Touching, GoesOnFromAnywhere) {
+  ModelSettings settings = pile(Integrator::velocity_verlet, ContactModel::coulomb);
+  const Model model = test::build(settings);
+  settings.contact.body_gap = 0.15;
+  settings.contact.body_friction = 0.8;
+  const SharedModel other = shared(test::build(settings));
+  const auto expected = std::move(*make_reference_solver(model, Precision::single));
+  const auto solver = gpu(model);
+  ASSERT_TRUE(solver->load(by_reference(model, 60)).ok());
+  ASSERT_TRUE(expected->load(by_reference(model, 60)).ok());
+  for (Solver* const each : {expected.get(), static_cast<Solver*>(solver.get())}) {
+    for (int n = 0; n < 20; ++n) ASSERT_TRUE(each->advance(1).ok());
+    ASSERT_TRUE(each->set_constants(other).ok());
+    ASSERT_TRUE(each->advance(60).ok());
+  }
+  EXPECT_EQ(*solver->state(), *expected->state());
+}
+
+}  // namespace
+}  // namespace aspic
