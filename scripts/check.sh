@@ -66,11 +66,36 @@ changed_files() {
   awk '/\.(cpp|h)$/ && !seen[$0]++' <<<"$changed" | while read -r file; do if [ -f "$file" ]; then echo "$file"; fi; done
 }
 
-# In parts, until ASPIC_ALONE_SECONDS are over if they are set: says how many files were left then. A header is compiled as the .cpp of
-# its name or, without one, included by an otherwise empty file with the flags of a file of its room.
-step_alone() {
-  local files file targets=() headers=() at=0 part failed=0 started=$SECONDS
+# alone_header FILE: includes a header in an otherwise empty file, with the flags of a file of its room.
+alone_header() {
+  local neighbour command
+  neighbour=$(files "$(cut -d / -f 1-2 <<<"$1")/*.cpp" | head -n 1)
+  [ -n "$neighbour" ] || neighbour=examples/minimal.cpp # public headers
+  command=$(flock build/alone/lock ninja -C build/alone -t commands -s "$aspic_root/$neighbour^" | sed 's/ -MD .*//')
+  (cd build/alone && echo "#include \"${1#*/}\"" | eval "$command -fsyntax-only -x c++ -") || { echo "^ $1" && return 1; }
+}
+
+# in_parts WHAT COMMAND ITEM …: COMMAND over the items in parts, until ASPIC_ALONE_SECONDS are over if they are set; says how many were
+# left then.
+in_parts() {
+  local what=$1 command=$2 items=("${@:3}") part at=0 failed=0 started=$SECONDS
   part=$((8 * $(nproc)))
+  while [ "$at" -lt "${#items[@]}" ]; do
+    if [ $((SECONDS - started)) -ge "${ASPIC_ALONE_SECONDS:-86400}" ]; then
+      echo "alone: $at $what compiled, $((${#items[@]} - at)) older ones left for want of time" | tee /dev/fd/3
+      break
+    fi
+    "$command" "${items[@]:at:part}" || failed=1
+    at=$((at + part))
+  done
+  return "$failed"
+}
+alone_files() { ninja -C build/alone -k 0 --quiet "$@"; }
+alone_headers() { printf '%s\0' "$@" | xargs -0 -n 1 -P "$(nproc)" "$BASH" -c 'alone_header "$1"' alone; }
+
+# A header is compiled as the .cpp of its name or, without one, by itself.
+step_alone() {
+  local files file targets=() headers=() failed=0
   files=$(changed_files) || return 1
   cmake --preset alone || return 1
   while read -r file; do
@@ -81,22 +106,10 @@ step_alone() {
       headers+=("$file")
     fi # others, of fuzzers for one, have no target in this build
   done <<<"$files"
-  while [ "$at" -lt "${#targets[@]}" ]; do
-    if [ $((SECONDS - started)) -ge "${ASPIC_ALONE_SECONDS:-86400}" ]; then
-      echo "alone: $at files compiled, $((${#targets[@]} - at)) older ones left for want of time" | tee /dev/fd/3
-      break
-    fi
-    ninja -C build/alone -k 0 --quiet "${targets[@]:at:part}" || failed=1
-    at=$((at + part))
-  done
-  local neighbour command
-  for file in "${headers[@]}"; do
-    neighbour=$(files "$(cut -d / -f 1-2 <<<"$file")/*.cpp" | head -n 1) # of its room
-    [ -n "$neighbour" ] || neighbour=examples/minimal.cpp # public headers
-    echo "$file"
-    command=$(ninja -C build/alone -t commands -s "$aspic_root/$neighbour^" | sed 's/ -MD .*//')
-    (cd build/alone && echo "#include \"${file#*/}\"" | eval "$command -fsyntax-only -x c++ -") || failed=1
-  done
+  in_parts files alone_files "${targets[@]}" || failed=1
+  export aspic_root
+  export -f alone_header files
+  in_parts headers alone_headers "${headers[@]}" || failed=1
   return "$failed"
 }
 

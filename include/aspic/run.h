@@ -101,6 +101,8 @@ struct PageFacts {
   const Scene* scene = nullptr;                 ///< null: there is no page
   std::uint64_t first_step = 0, last_step = 0;  ///< as planned
   std::string command = {};                     ///< that writes the page again; empty: none does
+  Precision precision = Precision::single;      ///< of the solver
+  Arithmetic arithmetic = Arithmetic::exact;    ///< of the solver
 };
 
 /// The files of a run: opened before it, completed after it. One that fails on the way does not keep the
@@ -112,7 +114,8 @@ class ASPIC_API RunFiles {
   ~RunFiles();
 
   /// Opens every file that is named; the page of `pictures` where `page` tells of its run. Errors: usage for
-  /// one name given twice, or a page of more than it holds; io; interrupted.
+  /// one name given twice, a page of more than it holds, or a live page of what a browser cannot repeat:
+  /// double precision, fast arithmetic, inputs; io; interrupted.
   static Result<RunFiles> open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
                                const RunFacts& facts, Overwrite overwrite, const PageFacts& page = {});
 

@@ -264,9 +264,34 @@ class Simulation(Replayable):
         complete film so far. Raises UsageError, FileError, DeviceError, and DivergedError as ``step()``.
         """
         count = self._steps_of(duration, steps)
+        _check_pace(fps, speed)
         if width < 1 or height < 1:
             raise UsageError(f"a picture has at least 1 × 1 pixels, not {width} × {height}")
         found = self._core.film(os.fspath(path), count, fps, speed, width, height, text, overwrite)
+        if found:
+            raise diverged(found)
+
+    def page(
+        self,
+        path: Path,
+        duration: float | None = None,
+        *,
+        steps: int | None = None,
+        fps: float = 60.0,
+        speed: float = 1.0,
+        live: bool = False,
+        overwrite: bool = False,
+    ) -> None:
+        """Steps, and writes the run as one HTML file that browsers show without a network (docs/page.md).
+
+        ``duration``, ``steps``: as ``run()``; ``fps``, ``speed``: as ``film()``; ``live``: the page holds no pictures,
+        but simulates the run in the browser and compares the bits. Ctrl-C and a divergence leave a complete page so
+        far. Raises UsageError, also for a live page of a run in double precision or with inputs; FileError or
+        FileExistsError where a file exists, unless ``overwrite``; DivergedError as ``step()``.
+        """
+        count = self._steps_of(duration, steps)
+        _check_pace(fps, speed)
+        found = self._core.page(os.fspath(path), count, fps, speed, live, overwrite)
         if found:
             raise diverged(found)
 
@@ -291,6 +316,12 @@ class Simulation(Replayable):
         if steps < 0:
             raise UsageError("a run takes 0 s or more")
         return steps
+
+
+def _check_pace(fps: float | None, speed: float) -> None:
+    for name, value in (("fps", fps), ("speed", speed)):
+        if value is not None and not 0 < value < float("inf"):
+            raise UsageError(f"{name} is more than 0, not {value}")
 
 
 def _check_interval(every: float | None) -> None:

@@ -135,6 +135,22 @@ std::optional<std::uint64_t> Simulation::compare(Simulation& other, std::uint64_
   return std::nullopt;
 }
 
+template <class Next, class Visit>
+Result<std::optional<Divergence>> Simulation::advance_visiting(std::uint64_t last, const Next& next_step,
+                                                               const Visit& visit, bool& stopped) {
+  std::optional<Divergence> divergence;
+  Chunk chunk;
+  while (true) {
+    if (const Status visited = visit(); !visited) return visited.error();
+    if (step_ == last || divergence || stopped) return divergence;
+    const std::uint64_t count = std::min({next_step() - step_, last - step_, chunk.size()});
+    const auto begin = Clock::now();
+    divergence = advance_alone(count);
+    chunk.took(count, seconds_since(begin));
+    stopped = signalled();
+  }
+}
+
 Result<std::optional<Divergence>> Simulation::film_alone(const FilmWish& wish, bool& stopped) {
   PictureOutput output;
   const std::filesystem::path path(wish.path);
@@ -143,23 +159,48 @@ Result<std::optional<Divergence>> Simulation::film_alone(const FilmWish& wish, b
   output.fps = wish.fps;
   output.speed = wish.speed;
   output.text = wish.text;
-  const RunFacts facts = {to_toml(scene_), scene_.model.simulation.integrator};
-  auto files = take(RunFiles::open({}, output, facts, wish.overwrite ? Overwrite::allow : Overwrite::refuse));
+  auto files =
+      take(RunFiles::open({}, output, facts_alone(), wish.overwrite ? Overwrite::allow : Overwrite::refuse));
   const std::uint64_t last = step_ + wish.steps;
   const auto recorder =
       take(Recorder::create(output, scene_, backend_, files.take_frame_sinks(), step_, last));
-  std::optional<Divergence> divergence;
-  Chunk chunk;
-  while (true) {
-    check(recorder->reach(*backend_.solver, step_));
-    if (step_ == last || divergence || stopped) break;
-    const std::uint64_t count = std::min({recorder->next_step() - step_, last - step_, chunk.size()});
-    const auto begin = Clock::now();
-    divergence = advance_alone(count);
-    chunk.took(count, seconds_since(begin));
-    stopped = signalled();
-  }
+  const auto divergence = take(advance_visiting(
+      last, [&] { return recorder->next_step(); }, [&] { return recorder->reach(*backend_.solver, step_); },
+      stopped));
   check(recorder->finish(*backend_.solver, step_));
+  return divergence;
+}
+
+Result<std::optional<Divergence>> Simulation::page_alone(const PageWish& wish, bool& stopped) {
+  PictureOutput output;
+  (wish.live ? output.page_live : output.page) = wish.path;
+  output.fps = wish.fps;
+  output.speed = wish.speed;
+  const std::uint64_t last = step_ + wish.steps;
+  const PageFacts page = {&scene_, step_, last, "", backend_.solver->precision(), backend_.arithmetic};
+  auto files = take(
+      RunFiles::open({}, output, facts_alone(), wish.overwrite ? Overwrite::allow : Overwrite::refuse, page));
+  bool begun = false;
+  const auto visit = [&]() -> Status {
+    if (begun && step_ != last && files.next_step(step_ - 1) != step_) return {};
+    begun = true;
+    const State state = take(backend_.solver->state());
+    return files.take({.model = *model_, .state = state, .inputs = &backend_.solver->inputs()});
+  };
+  const auto divergence = take(advance_visiting(
+      last, [&] { return files.next_step(step_); }, visit, stopped));
+  const State state = take(backend_.solver->state());
+  check(files.finish({.model = *model_,
+                      .state = state,
+                      .divergence = divergence ? &*divergence : nullptr,
+                      .inputs = &backend_.solver->inputs()}));
+  return divergence;
+}
+
+std::optional<Divergence> Simulation::page(const PageWish& wish) {
+  bool stopped = false;
+  const auto divergence = alone([&] { return take(page_alone(wish, stopped)); });
+  if (stopped) throw nb::python_error();
   return divergence;
 }
 
@@ -234,11 +275,14 @@ void Simulation::write_checkpoint(const std::string& path, bool overwrite) {
   alone([&] { write_file("checkpoint", path, overwrite); });
 }
 
+RunFacts Simulation::facts_alone() const {
+  return {to_toml(scene_), scene_.model.simulation.integrator,
+          log_.empty() ? "" : to_toml(log_, scene_.model.simulation.timestep)};
+}
+
 void Simulation::write_file(const std::string& option, const std::string& path, bool overwrite) {
-  const RunFacts facts = {to_toml(scene_), scene_.model.simulation.integrator,
-                          log_.empty() ? "" : to_toml(log_, scene_.model.simulation.timestep)};
-  auto files =
-      take(RunFiles::open({{option, path, {}}}, {}, facts, overwrite ? Overwrite::allow : Overwrite::refuse));
+  auto files = take(RunFiles::open({{option, path, {}}}, {}, facts_alone(),
+                                   overwrite ? Overwrite::allow : Overwrite::refuse));
   const State state = take(backend_.solver->state());
   const Sample sample = {.model = *model_, .state = state, .inputs = &backend_.solver->inputs()};
   check(files.take(sample));

@@ -32,6 +32,15 @@ struct FilmWish {
   bool text = true, overwrite = false;
 };
 
+/// How a page for browsers is made.
+struct PageWish {
+  std::string path;
+  std::uint64_t steps = 0;
+  std::optional<double> fps;
+  double speed = 1.0;
+  bool live = false, overwrite = false;
+};
+
 /// Steps between two looks at signals and other threads: as many as take about a twentieth of a second.
 class Chunk {
  public:
@@ -83,6 +92,7 @@ class Simulation {
   /// The step that failed ends it.
   std::optional<Divergence> advance(std::uint64_t steps);
   std::optional<Divergence> film(const FilmWish& wish);
+  std::optional<Divergence> page(const PageWish& wish);
   /// The first step whose states differ, of so many; both advance until there.
   std::optional<std::uint64_t> compare(Simulation& other, std::uint64_t steps);
 
@@ -107,8 +117,14 @@ class Simulation {
  private:
   void write_file(const std::string& option, const std::string& path, bool overwrite);
   void refuse_while_viewed() const;
+  RunFacts facts_alone() const;
   std::optional<Divergence> advance_alone(std::uint64_t steps);
-  Result<std::optional<Divergence>> film_alone(const FilmWish& wish, bool& signalled);
+  /// Steps to `last`, with visit() at the steps that next_step() names, until a divergence or a signal.
+  template <class Next, class Visit>
+  Result<std::optional<Divergence>> advance_visiting(std::uint64_t last, const Next& next_step,
+                                                     const Visit& visit, bool& stopped);
+  Result<std::optional<Divergence>> film_alone(const FilmWish& wish, bool& stopped);
+  Result<std::optional<Divergence>> page_alone(const PageWish& wish, bool& stopped);
 
   Turns turns_;
   Scene scene_;

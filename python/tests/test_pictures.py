@@ -116,3 +116,54 @@ def test_ctrl_c_completes_a_film(scene: aspic.Scene) -> None:
     thread.join()
     last = sorted(pathlib.Path("frames").glob("*.png"))[-1]
     assert np.array_equal(read_png(last.read_bytes()), sim.render(64, 36))
+
+
+def text_of(path: str) -> str:
+    return pathlib.Path(path).read_text(encoding="utf-8")
+
+
+def test_a_page_holds_the_run(scene: aspic.Scene) -> None:
+    sim = aspic.Simulation(scene, "cpu")
+    sim.step(10)
+    sim.page("a.html", steps=30, fps=100)
+    assert sim.steps == 40 and sim.hash in text_of("a.html")
+    again = aspic.Simulation(scene, "reference")
+    again.step(10)
+    again.page("b.html", steps=30, fps=50)
+    assert again.hash in text_of("b.html")
+    assert len(text_of("b.html")) < len(text_of("a.html")), "half the pictures"
+    with pytest.raises(FileExistsError):
+        sim.page("a.html", steps=1)
+    assert sim.steps == 40
+    sim.page("a.html", steps=1, overwrite=True)
+    assert sim.steps == 41 and sim.hash in text_of("a.html")
+    for wrong in ({"fps": 0.0}, {"speed": -1.0}, {"steps": 10**12}):
+        with pytest.raises(aspic.UsageError):
+            sim.page("c.html", **{"steps": 1, **wrong})
+    with pytest.raises(aspic.UsageError, match="html"):
+        sim.page("c.mp4", steps=1)
+    assert not pathlib.Path("c.html").exists() and sim.steps == 41
+
+
+def test_a_page_of_a_divergence_is_complete(scene: aspic.Scene) -> None:
+    sim = aspic.Simulation(scene.copy({"simulation.timestep": 0.1}), "cpu")
+    with pytest.raises(aspic.DivergedError):
+        sim.page("a.html", 100.0, fps=10)
+    assert sim.hash in text_of("a.html")
+
+
+def test_a_live_page_simulates_the_run_or_says_why_not(scene: aspic.Scene) -> None:
+    sim = aspic.Simulation(scene, "cpu")
+    try:
+        sim.page("live.html", steps=20, live=True)
+    except aspic.FileError as error:
+        assert "scripts/wasm.sh" in str(error)
+    else:
+        assert sim.hash in text_of("live.html") and "wasm-unsafe-eval" in text_of("live.html")
+        doubles = aspic.Simulation(scene, "reference", precision="double")
+        with pytest.raises(aspic.UsageError, match="single precision"):
+            doubles.page("d.html", steps=1, live=True)
+        sim.pulls = [aspic.Pull(0, (0.0, 1.0, 0.0))]
+        with pytest.raises(aspic.UsageError, match="pulls"):
+            sim.page("p.html", steps=1, live=True)
+    assert not pathlib.Path("d.html").exists() and not pathlib.Path("p.html").exists()

@@ -18,7 +18,6 @@
 #include "io/program.h"
 #include "model/inputs.h"
 #include "model/springs.h"
-#include "page/live_facts.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
 
@@ -186,17 +185,13 @@ Status execute(const RunOptions& options) {
   ASPIC_TRY(const InputLog inputs, inputs_of_run(options, start, model));
   const RunFacts facts = {start.scene_toml, start.scene.model.simulation.integrator,
                           inputs.empty() ? "" : to_toml(inputs, model.simulation.timestep)};
-  if (!options.pictures.page_live.empty()) {
-    const Precision precision = start.state ? start.state->precision : options.backend.precision;
-    if (const Status live = page::check_live(precision, options.backend.arithmetic, !inputs.empty()); !live)
-      return fail(live.error(), "--page-live: {}", live.error().what);
-  }
-  const PageFacts page = {&start.scene, first_step, steps, command_of(options.words)};
+  BackendChoice choice = options.backend;
+  if (start.state) choice.precision = start.state->precision;
+  const PageFacts page = {&start.scene,     first_step,       steps, command_of(options.words),
+                          choice.precision, choice.arithmetic};
   ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.pictures, facts,
                                        options.force ? Overwrite::allow : Overwrite::refuse, page));
 
-  BackendChoice choice = options.backend;
-  if (start.state) choice.precision = start.state->precision;
   ASPIC_TRY(auto backend, make_backend(choice, held_model));
   if (start.state) ASPIC_CHECK(backend.solver->load(*start.state));
   ASPIC_CHECK(check_log(model, inputs, backend.solver->precision()));

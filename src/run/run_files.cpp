@@ -11,6 +11,7 @@
 #include "io/film_format.h"
 #include "io/numbered_files.h"
 #include "io/state_sink.h"
+#include "page/live_facts.h"
 #include "page/page_writer.h"
 
 namespace aspic {
@@ -82,6 +83,8 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
                                 const RunFacts& facts, Overwrite overwrite, const PageFacts& page) {
   ASPIC_CHECK(check_endings(states));
   ASPIC_CHECK(refuse_duplicates(states, pictures));
+  if (page.scene && !pictures.page_live.empty())
+    ASPIC_CHECK(page::check_live(page.precision, page.arithmetic, !facts.inputs_toml.empty()));
   auto files = std::make_unique<Parts>();
   for (const StateOutput& output : states) {
     if (output.path.empty()) continue;

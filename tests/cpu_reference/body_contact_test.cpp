@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "cpu_reference/step_dynamics.h"
 #include "cpu_reference/touching.h"
