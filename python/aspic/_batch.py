@@ -81,15 +81,26 @@ class Batch:
     """
 
     def __init__(
-        self, scenes: Scene | Path | Iterable[Scene | Path], *, count: int | None = None, threads: int = 0
+        self,
+        scenes: Scene | Path | Iterable[Scene | Path],
+        backend: str = "cpu",
+        *,
+        count: int | None = None,
+        threads: int = 0,
     ) -> None:
         """Makes n instances at their scenes' starts; later changes of the scenes do not matter to them.
 
         ``scenes``: several, each one or what ``aspic.load()`` takes, or a single one, of which ``count`` instances are
-        made; the same object several times is made once. ``threads``: 1 … 1024, 0: as many as there are processors, or
+        made; the same object several times is made once. ``backend``: ``"cpu"``, or ``"auto"``, which is the same: there
+        is no batch on a GPU yet, and for ``"gpu"`` UsageError says so. ``threads``: 1 … 1024, 0: as many as there are processors, or
         the environment variable ASPIC_THREADS. Raises UsageError for no scenes and for other numbers; SceneError where
         a model is larger than memory, and what ``load()`` raises.
         """
+        if backend not in ("cpu", "auto"):
+            raise UsageError(
+                f"a batch is stepped on the CPU: its backend is 'cpu' or 'auto', not {backend!r}. Single simulations have "
+                "the others, and end with the same bits"
+            )
         if isinstance(scenes, (Scene, str, os.PathLike)):
             copies = 1 if count is None else operator.index(count)
             if copies < 1:

@@ -246,7 +246,7 @@ def test_copies_of_one_scene_and_names(scene: aspic.Scene) -> None:
     scene.save("mine.toml")
     named = aspic.Batch(["mine.toml", scene, "mine.toml"])
     named.step(3)
-    assert len(set(named.hash)) == 1 and len(aspic.Batch("mine.toml")) == 1
+    assert len(set(named.hash)) == 1 and len(aspic.Batch("mine.toml", backend="auto")) == 1
 
 
 @pytest.mark.parametrize(
@@ -255,6 +255,8 @@ def test_copies_of_one_scene_and_names(scene: aspic.Scene) -> None:
         (lambda: aspic.Batch([]), "at least one"),
         (lambda: aspic.Batch("cube-plane", count=0), "at least one"),
         (lambda: aspic.Batch([cube()], count=3), "single scene"),
+        (lambda: aspic.Batch([cube()], "gpu"), "on the CPU.* not 'gpu'.*same bits"),
+        (lambda: aspic.Batch([cube()], backend="reference"), "not 'reference'"),
         (lambda: aspic.Batch([cube()], threads=5000), "threads"),
         (lambda: aspic.Batch([cube()], threads=-1), "threads"),
         (lambda: aspic.Batch([cube()]).step(-1), "steps"),

@@ -11,8 +11,8 @@ import aspic
 import pytest
 from conftest import needs_pictures, root
 
-# What the core tests do without; test_sweep_engines.py is where they are.
-ENGINES = ("dask", "submitit")
+# What is optional; test_sweep_engines.py has the tests of the first two.
+ENGINES = ("dask", "submitit", "gymnasium")
 
 
 def blocks(page: str) -> list[tuple[int, str]]:
@@ -69,6 +69,10 @@ EXAMPLES = {
         ["--runs", "2", "--seconds", "0.1", "--out", "runs"],
         r"4 of 4 runs\nfarthest: \d.\d+ m .*\nhash [0-9a-f]{16}",
     ),
+    "crawl.py": (
+        ["--generations", "2", "--pairs", "4", "--seconds", "0.2"],
+        r"weights 892ca1a7e9ca56a5\ncrawled -0.012 m in 0.2 s, hash 22ca02d0539aa422\n",
+    ),
     "throw.py": ([], r"cpu ([0-9a-f]{16}), replayed on reference \1\n"),
 }
 
@@ -80,6 +84,8 @@ def test_examples_run(name: str) -> None:
         pytest.skip("the examples are not here")
     if name.startswith("dask"):
         pytest.importorskip("distributed")
+    if name.startswith("crawl"):
+        pytest.importorskip("gymnasium")
     words, says = EXAMPLES[name]
     # A process that spawn starts finds the package as this one did.
     here = os.pathsep.join([str(pathlib.Path(aspic.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])

@@ -1,0 +1,200 @@
+"""A soft cube that crawls."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import gymnasium  # type: ignore[import-not-found, unused-ignore]
+import numpy as np
+from gymnasium.vector import AutoresetMode  # type: ignore[import-not-found, unused-ignore]
+
+from ._batch import Instance
+from ._environments import BatchEnv, Path, SingleEnv
+from ._errors import UsageError
+from ._inputs import Pull
+from ._scene import Scene, load
+from ._simulation import Simulation
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float32]
+
+__all__ = ["Crawl", "CrawlEnv", "crawler"]
+
+
+def crawler(overrides: dict[str, Any] | None = None) -> Scene:
+    """The scene of ``Crawl``: a soft cube with edges of 1 m and 64 particles of 1 kg, which lies on rough ground.
+
+    ``overrides``: keys and values set afterwards. Raises SceneError.
+    """
+    values: dict[str, Any] = {
+        "name": "crawl",
+        "cube[0].particles-per-edge": 4,
+        "cube[0].edge-length": 1.0,
+        "cube[0].position": [0, -0.5, 0],
+        "cube[0].structural.stiffness": 600.0,
+        "cube[0].shear.stiffness": 600.0,
+        "cube[0].bending.stiffness": 600.0,
+        "contact.restitution": 0.0,
+        "contact.friction": 0.9,
+        "view.camera.position": [1.6, 0.6, 5.0],
+        "view.camera.target": [0.4, -0.5, 0.0],
+        "view.camera.fov": 28.0,
+    }
+    return load("cube-plane", {**values, **(overrides or {})})
+
+
+# A tendon's force hardly changes while its ends move, since they are pulled from this far away [m].
+_FAR = 1000.0
+
+
+class Crawl(BatchEnv):
+    """A soft body crawls along +x by tendons, which draw two of its particles together.
+
+    Action, (m,) of 0 … 1: the tension of each tendon as a part of ``force``, constant for ``every`` s. Both ends feel
+    it, in opposite directions, so tendons alone do not move its centre of mass: it has to walk by friction.
+
+    Observation, (2m + 6,) float32, within ±10: a clock, as two triangle waves a quarter of ``cycle`` apart (2,);
+    lengths of the tendons over those at the start, less 1 (m,); their rates over those lengths [1/s] (m,); velocity of
+    the centre of mass [m/s] (3,); how much higher it is than at the start [m] (1,).
+
+    Reward: how far the centre of mass moved along x [m]. infos["distance"]: since the beginning of the episode [m].
+    An episode begins at the scene's start with a random velocity, the same of all particles.
+    """
+
+    ends: NDArray[np.int64]
+    """Particles that each tendon draws together, (m, 2)."""
+
+    def __init__(
+        self,
+        num_envs: int | None = None,
+        scenes: Scene | Path | Iterable[Scene | Path] | None = None,
+        *,
+        tendons: ArrayLike | None = None,
+        force: float = 1000.0,
+        cycle: float = 0.5,
+        push: float = 0.05,
+        **options: Any,
+    ) -> None:
+        """Makes the environments.
+
+        ``scenes``: ``crawler()``, ``num_envs`` times, or others with as many particles in each; ``tendons``: the ends
+        of each, (m, 2) indices of particles, 1 … 128 pairs; None: the eight edges along x and y of the box around the
+        first body; ``force``: the largest tension [N], > 0; ``cycle``: of the clock [s], > 0; ``push``: the largest
+        component of the velocity at the beginning [m/s], ≥ 0; ``options``: those of ``BatchEnv()``. Raises UsageError,
+        SceneError.
+        """
+        if not (force > 0 and cycle > 0 and push >= 0):
+            raise UsageError(f"force and cycle are > 0, push is ≥ 0, not {force}, {cycle}, {push}")
+        made = crawler() if scenes is None else scenes
+        if not isinstance(made, (Scene, str, os.PathLike)):
+            made = list(made)
+        first = made[0] if isinstance(made, list) else made
+        self.ends = _edges(first) if tendons is None else np.array(tendons, np.int64)
+        if self.ends.ndim != 2 or self.ends.shape[1] != 2 or not 1 <= len(self.ends) <= 128:
+            raise UsageError(f"tendons are 1 to 128 pairs of particles, (m, 2), not {self.ends.shape}")
+        m = len(self.ends)
+        box = gymnasium.spaces.Box
+        super().__init__(
+            made,
+            num_envs,
+            observation_space=box(-10.0, 10.0, (2 * m + 6,), np.float32),
+            action_space=box(0.0, 1.0, (m,), np.float32),
+            **options,
+        )
+        self.force, self.cycle, self.push = force, cycle, push
+        x = self.batch.positions.astype(np.float64)
+        if self.ends.min() < 0 or self.ends.max() >= x.shape[1]:
+            raise UsageError(f"a tendon's ends are indices of particles, 0 to {x.shape[1] - 1}")
+        self._masses = np.array([instance.masses for instance in self.batch])[:, :, None]
+        self._rest = self._spans(x)[1]
+        if not (self._rest > 0).all():
+            raise UsageError("the ends of a tendon are at different places")
+        self._start = self._centre(x)
+        self._place = self._start[:, 0].copy()
+
+    def begin(self, index: int, instance: Instance, random: np.random.Generator) -> None:
+        """All particles get the same velocity, each component within ±``push``."""
+        instance.velocities = instance.velocities + random.uniform(-self.push, self.push, 3)
+        self._place[index] = self._start[index, 0]
+
+    def act(self, actions: Any) -> None:
+        """Tensions the tendons."""
+        x = self.batch.positions.astype(np.float64)
+        across, length = self._spans(x)
+        far = across / np.maximum(length, 1e-9)[:, :, None] * _FAR
+        stiffness = self.force * actions.astype(np.float64) / _FAR
+        anchors = np.stack([x[:, self.ends[:, 0]] + far, x[:, self.ends[:, 1]] - far], axis=2)
+        ends = self.ends.tolist()
+        for instance, ks, places in zip(self.batch, stiffness.tolist(), anchors.tolist()):
+            instance.pulls = [
+                Pull(end, place, k) for k, pair, two in zip(ks, ends, places) for end, place in zip(pair, two) if k > 0
+            ]
+
+    def observe(self) -> Floats:
+        """Clock, lengths, rates, velocity and height, (n, 2m + 6)."""
+        x, v = self.batch.positions.astype(np.float64), self.batch.velocities.astype(np.float64)
+        across, length = self._spans(x)
+        difference = v[:, self.ends[:, 1]] - v[:, self.ends[:, 0]]
+        rates = _dot(across, difference) / np.maximum(length, 1e-9)
+        time = self._made * self.every / self.cycle
+        clock = [4 * np.abs((time + shift) % 1.0 - 0.5) - 1 for shift in (0.0, 0.25)]
+        higher = (self._centre(x) - self._start)[:, 1:2]
+        seen = (np.stack(clock, axis=1), length / self._rest - 1, rates / self._rest, self._centre(v), higher)
+        observations: Floats = np.clip(np.concatenate(seen, axis=1), -10, 10).astype(np.float32)
+        return observations
+
+    def judge(self) -> tuple[ArrayLike, ArrayLike]:
+        """How far each went along x since the last step [m]; no episode ends by it."""
+        place = self._centre(self.batch.positions.astype(np.float64))[:, 0]
+        moved = place - self._place
+        self._place = place
+        return moved, np.zeros(self.num_envs, np.bool_)
+
+    def figures(self) -> dict[str, NDArray[Any]]:
+        """The distance since the beginning of the episode [m]."""
+        return {"distance": self._place - self._start[:, 0]}
+
+    def _spans(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """From one end of each tendon to the other, (n, m, 3), and how long that is, (n, m)."""
+        across = x[:, self.ends[:, 1]] - x[:, self.ends[:, 0]]
+        return across, np.sqrt(_dot(across, across))
+
+    def _centre(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Mean by mass, (n, 3), added in the order of the particles, so that it has the same bits everywhere."""
+        sums = np.cumsum(self._masses * vectors, axis=1)[:, -1]
+        return sums / np.cumsum(self._masses, axis=1)[:, -1]  # type: ignore[no-any-return]
+
+
+def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Of the last axis, in a fixed order."""
+    return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
+
+
+def _edges(scene: Scene | Path) -> NDArray[np.int64]:
+    """The edges along x and y of the box around the first body, by the particles nearest to its corners."""
+    sim = Simulation(scene, "cpu", threads=1)
+    if not sim.bodies:
+        raise UsageError("the scene has no body to crawl")
+    body = sim[sim.bodies[0]]
+    signs = list(itertools.product((-1, 1), repeat=3))
+    corner = {sign: body.particles[int((body.positions * np.array(sign)).sum(axis=1).argmax())] for sign in signs}
+    pairs = []
+    for axis in (0, 1):
+        for sign in signs:
+            if sign[axis] < 0:
+                other = tuple(1 if i == axis else s for i, s in enumerate(sign))
+                pairs.append((corner[sign], corner[other]))
+    return np.array(pairs, np.int64)
+
+
+class CrawlEnv(SingleEnv):
+    """A single environment of ``Crawl``: ``gymnasium.make("aspic/Crawl-v0")``."""
+
+    def __init__(self, **options: Any):
+        """``options``: those of ``Crawl()`` but for ``num_envs`` and ``autoreset_mode``."""
+        super().__init__(Crawl(1, autoreset_mode=AutoresetMode.DISABLED, **options))
