@@ -25,7 +25,8 @@ full      core, and by label:
   window       the rest of the window's tests
   report       the report's page in a browser, and on paper
   independent  the independent implementation of the physics
-  packages     the Python package from source distribution to wheel to a fresh environment; its sweeps on Dask and submitit
+  packages     the Python package from source distribution to wheel to a fresh environment; its sweeps on Dask and submitit;
+               its notebooks; the cube that learns to crawl, to the end
   exports      files for other programs, read by VTK, USD, trimesh, zarr and xarray from PyPI (600 MB)
   attack       damaged files, limits, faults and kills (scripts/attack.sh)
           and without a label:

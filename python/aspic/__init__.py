@@ -13,6 +13,7 @@ numbers are in SI units.
 from . import _aspic
 from ._batch import Batch, Instance
 from ._body import Ball, Body
+from ._devices import Device, devices
 from ._errors import (
     CheckError,
     DeviceError,
@@ -25,7 +26,7 @@ from ._errors import (
     UsageError,
 )
 from ._inputs import Pull
-from ._reading import Measures, Springs
+from ._reading import Measures, Quantities, Springs
 from ._scene import BuiltinScene, Parameter, Scene, load, parameters, scenes
 from ._simulation import Simulation, resume
 from ._state import Difference, QuantityDifference, State, compare
@@ -42,6 +43,7 @@ __all__ = [
     "Body",
     "BuiltinScene",
     "CheckError",
+    "Device",
     "DeviceError",
     "Difference",
     "DivergedError",
@@ -54,6 +56,7 @@ __all__ = [
     "Measures",
     "Parameter",
     "Pull",
+    "Quantities",
     "QuantityDifference",
     "Scene",
     "SceneError",
@@ -65,6 +68,7 @@ __all__ = [
     "UsageError",
     "collect",
     "compare",
+    "devices",
     "load",
     "parameters",
     "resume",

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from ._picture import Picture
+    from ._simulation import Simulation
+
 __all__ = ["Batch", "Instance"]
 
 Path = Union[str, "os.PathLike[str]"]
@@ -34,9 +37,10 @@ class Instance(Steerable):
 
     _core: _aspic.Instance
 
-    def __init__(self, core: _aspic.Instance, number: int):
+    def __init__(self, core: _aspic.Instance, number: int, drawer: _Drawer):
         self._core = core
         self._number = number
+        self._drawer = drawer
 
     @property
     def divergence(self) -> DivergedError | None:
@@ -63,11 +67,34 @@ class Instance(Steerable):
         """
         self._core.load(state._core, state._log)
 
+    def render(
+        self, width: int = 960, height: int = 540, view: Mapping[str, Any] | None = None, *, text: bool = True
+    ) -> Picture:
+        """A picture of the state, as ``Simulation.render()``. The batch keeps the OpenGL context of its last scene."""
+        return self._drawer.of(self).render(width, height, view, text=text)
+
     def _ipython_key_completions_(self) -> list[str]:
         return [*self.bodies, *(ball.name for ball in self.balls)]
 
     def __repr__(self) -> str:
         return f"<aspic.Instance {self._number} of {self._core.scene.name!r}: step {self.steps}, {self.time:g} s>"
+
+
+class _Drawer:
+    """A simulation that shows instances, which have no pictures."""
+
+    def __init__(self) -> None:
+        self._shown: tuple[str, Simulation] | None = None
+
+    def of(self, instance: Instance) -> Simulation:
+        """At the instance's state, with its scene."""
+        from ._simulation import Simulation
+
+        scene = instance.scene
+        if self._shown is None or self._shown[0] != scene.toml:
+            self._shown = (scene.toml, Simulation(scene, "cpu", threads=1))
+        self._shown[1].load(instance.save())
+        return self._shown[1]
 
 
 class Batch:
@@ -91,15 +118,15 @@ class Batch:
         """Makes n instances at their scenes' starts; later changes of the scenes do not matter to them.
 
         ``scenes``: several, each one or what ``aspic.load()`` takes, or a single one, of which ``count`` instances are
-        made; the same object several times is made once. ``backend``: ``"cpu"``, or ``"auto"``, which is the same: there
-        is no batch on a GPU yet, and for ``"gpu"`` UsageError says so. ``threads``: 1 … 1024, 0: as many as there are processors, or
-        the environment variable ASPIC_THREADS. Raises UsageError for no scenes and for other numbers; SceneError where
-        a model is larger than memory, and what ``load()`` raises.
+        made; the same object several times is made once. ``backend``: ``"cpu"``, or ``"auto"``, which is the same:
+        there are no batches on a GPU yet. ``threads``: 1 … 1024, 0: as many as there are processors, or the environment
+        variable ASPIC_THREADS. Raises UsageError for no scenes, another backend and other numbers; SceneError where a
+        model is larger than memory, and what ``load()`` raises.
         """
         if backend not in ("cpu", "auto"):
             raise UsageError(
-                f"a batch is stepped on the CPU: its backend is 'cpu' or 'auto', not {backend!r}. Single simulations have "
-                "the others, and end with the same bits"
+                f"a batch is stepped on the CPU: its backend is 'cpu' or 'auto', not {backend!r}. There are no batches "
+                "on a GPU yet; single simulations have all backends, and end with the same bits"
             )
         if isinstance(scenes, (Scene, str, os.PathLike)):
             copies = 1 if count is None else operator.index(count)
@@ -123,6 +150,7 @@ class Batch:
             which.append(numbers[key])
         self._core = _aspic.Batch(cores, which, threads)
         self._size = len(which)
+        self._drawer = _Drawer()
 
     # Instances.
 
@@ -133,7 +161,7 @@ class Batch:
     def __getitem__(self, instance: SupportsIndex) -> Instance:
         """An instance by its number from 0, from the end if negative. Raises IndexError."""
         number = self._number(instance)
-        return Instance(self._core.instance(number), number)
+        return Instance(self._core.instance(number), number, self._drawer)
 
     def __iter__(self) -> Iterator[Instance]:
         return (self[i] for i in range(self._size))

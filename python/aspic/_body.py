@@ -72,6 +72,21 @@ class Body:
         return weighted(self.masses, self.velocities)
 
     @property
+    def forces(self) -> NDArray[np.float64]:
+        """On its particles, with the reaction of the ground and of pins, (n, 3) [N]."""
+        return self._simulation.quantities.force[self._slice]
+
+    @property
+    def contacts(self) -> NDArray[np.bool_]:
+        """Which of its particles touch the ground, (n,)."""
+        return self._simulation.quantities.contact[self._slice]
+
+    @property
+    def strain(self) -> NDArray[np.float64]:
+        """Mean |strain| of each particle's springs, (n,)."""
+        return self._simulation.quantities.mean_strain[self._slice]
+
+    @property
     def surface(self) -> NDArray[np.uint32]:
         """Squares of the surface, (m, 4) indices into ``positions``, anticlockwise from outside; none for nets."""
         faces = self._simulation._core.surface(self._index)

@@ -37,13 +37,13 @@ class Steerable(Readable):
 
     @property
     def pulls(self) -> tuple[Pull, ...]:
-        """The pulls that act from this step on; may be assigned, at most 256. Raises UsageError, naming the index."""
+        """The pulls that act from this step on; may be assigned, one or up to 256. Raises UsageError with the index."""
         return tuple(Pull(*row) for row in self._core.inputs()[0])
 
     @pulls.setter
-    def pulls(self, pulls: Iterable[Pull]) -> None:
+    def pulls(self, pulls: Iterable[Pull] | Pull) -> None:
         rows = []
-        for particle, anchor, stiffness, damping, ball in pulls:
+        for particle, anchor, stiffness, damping, ball in [pulls] if isinstance(pulls, Pull) else pulls:
             if particle < 0:
                 raise UsageError(f"a pull's particle is an index, 0 or more, not {particle}")
             x, y, z = (float(a) for a in anchor)
@@ -78,6 +78,19 @@ class Steerable(Readable):
         scene = set(self._core.pinned().tolist())
         pulls, _, _, channels = self._core.inputs()
         self._core.set_inputs((pulls, sorted(wanted - scene), sorted(scene - wanted), channels))
+
+    @property
+    def channels(self) -> tuple[float, ...]:
+        """Numbers by index, at most 65,536, for parts of a model that read an input, which none does yet.
+
+        They may be assigned, and are kept and replayed as pulls are. Raises UsageError for numbers that are not finite.
+        """
+        return tuple(self._core.inputs()[3])
+
+    @channels.setter
+    def channels(self, channels: Iterable[float]) -> None:
+        pulls, pinned, released, _ = self._core.inputs()
+        self._core.set_inputs((pulls, pinned, released, [float(number) for number in channels]))
 
 
 class Replayable(Steerable):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from ._state import Floats
 
-__all__ = ["Measures", "Readable", "Springs"]
+__all__ = ["Measures", "Quantities", "Readable", "Springs"]
 
 
 class Measures(NamedTuple):
@@ -49,6 +49,25 @@ class Springs(NamedTuple):
     """(m,): 0 structural, 1 shear, 2 bending."""
     cord: NDArray[np.uint8]
     """(m,): 1 where it resists stretch only."""
+
+
+class Quantities(NamedTuple):
+    """What particles and springs do in a state, in double precision: docs/exports.md defines each."""
+
+    speed: NDArray[np.float64]
+    """Of particles, (n,) [m/s]."""
+    mean_strain: NDArray[np.float64]
+    """Mean |strain| of a particle's springs, (n,)."""
+    force: NDArray[np.float64]
+    """On particles, with the reaction of the ground and of pins, (n, 3) [N]."""
+    contact_force: NDArray[np.float64]
+    """Of the ground on particles, (n, 3) [N]."""
+    contact: NDArray[np.bool_]
+    """Whether particles touch the ground, (n,)."""
+    strain: NDArray[np.float64]
+    """L/r − 1 of springs, (m,); in the order of ``springs``."""
+    tension: NDArray[np.float64]
+    """Of springs, (m,) [N]; < 0: pressure."""
 
 
 class Readable:
@@ -191,6 +210,12 @@ class Readable:
     def momentum(self) -> NDArray[np.float64]:
         """Σ m v of what is not pinned, (3,) [N·s]."""
         return self.measures.momentum
+
+    @property
+    def quantities(self) -> Quantities:
+        """Speeds, strains, forces and contacts as they are; ``run()`` records them by their names."""
+        speed, mean_strain, force, contact_force, contact, strain, tension = self._core.quantities()
+        return Quantities(speed, mean_strain, force, contact_force, contact.astype("bool"), strain, tension)
 
     @property
     def hash(self) -> str:

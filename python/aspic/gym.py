@@ -26,5 +26,475 @@ from ._environments import BatchEnv, SingleEnv
 
 __all__ = ["AutoresetMode", "BatchEnv", "Crawl", "CrawlEnv", "SingleEnv", "crawler"]
 
+Path = Union[str, "os.PathLike[str]"]
+
+
+class BatchEnv(VectorEnv):  # type: ignore[misc, type-arg, unused-ignore]
+    """The n instances of a batch as environments. Derive from it, and say what acts, what is seen and what it is worth.
+
+    ``act()``, ``observe()`` and ``judge()`` are yours; ``begin()`` and ``figures()`` may be. They work with
+    ``self.batch``. Steps, episodes, seeds, automatic resets, infos and pictures are done here. An environment whose
+    instance diverges is terminated, at its last good state. Every array has the environment first.
+
+    infos has what ``figures()`` gives, and ``diverged``, (n,) of bool; with automatic resets in the same step also
+    ``final_obs`` and ``final_info``. Each environment has its own random generator, with the seed ``seed + i``, so its
+    episodes do not depend on those of others.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}
+
+    batch: Batch
+    """The instances, which may be read and changed between two steps."""
+
+    def __init__(
+        self,
+        scenes: Scene | Path | Iterable[Scene | Path],
+        num_envs: int | None = None,
+        *,
+        observation_space: Any,
+        action_space: Any,
+        every: float = 0.02,
+        episode: float = 8.0,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        render_mode: str | None = None,
+        width: int = 480,
+        height: int = 270,
+        threads: int = 0,
+    ) -> None:
+        """Makes the batch; call it before anything else of a derived class.
+
+        ``scenes``: one, or what ``aspic.load()`` takes, of which ``num_envs`` (1) are made, or one for each
+        environment, with equal time steps; ``observation_space``, ``action_space``: of a single environment; ``every``:
+        how long an action acts [s], a multiple of the time step; ``episode``: after this time an episode is truncated
+        [s]; ``autoreset_mode``: when the next episode begins, ``NEXT_STEP``, ``SAME_STEP`` or
+        ``DISABLED`` (``reset()`` with the option ``reset_mask``); ``render_mode``: ``"rgb_array"`` or None; ``width``,
+        ``height``: of pictures [pixels]; ``threads``: of the batch. Raises UsageError, and what ``Batch()`` raises.
+        """
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise UsageError(f"a render mode is 'rgb_array' or None, not {render_mode!r}")
+        try:
+            self.autoreset_mode = AutoresetMode(autoreset_mode)
+        except ValueError:
+            words = ", ".join(repr(mode.value) for mode in AutoresetMode)
+            raise UsageError(f"a mode of automatic resets is one of {words}, not {autoreset_mode!r}") from None
+        if isinstance(scenes, (Scene, str, os.PathLike)):
+            made = [scenes if isinstance(scenes, Scene) else load(scenes)] * (1 if num_envs is None else num_envs)
+        else:
+            made = [scene if isinstance(scene, Scene) else load(scene) for scene in scenes]
+            if num_envs not in (None, len(made)):
+                raise UsageError(f"{len(made)} scenes make as many environments, not {num_envs}")
+        self.batch = Batch(made, threads=threads)
+        self.num_envs = len(self.batch)
+        h = made[0]["simulation.timestep"]
+        self._steps = _count("every", every, h)
+        self._most = _count("episode", episode, self._steps * h)
+        if any(scene["simulation.timestep"] != h for scene in made):
+            raise UsageError("environments have the same time step")
+        self.every: float = self._steps * h
+        self.single_observation_space = observation_space
+        self.single_action_space = action_space
+        self.observation_space = batch_space(observation_space, self.num_envs)
+        self.action_space = batch_space(action_space, self.num_envs)
+        self.render_mode = render_mode
+        self.metadata = {**self.metadata, "render_fps": round(1 / self.every), "autoreset_mode": self.autoreset_mode}
+        self._size = (width, height)
+        self._generators: list[tuple[np.random.Generator, int]] | None = None
+        self._made = np.zeros(self.num_envs, np.int64)
+        # Those whose episode is over; before the first reset that of all is.
+        self._over = np.ones(self.num_envs, np.bool_)
+        self._begun = False
+
+    # What derived classes say.
+
+    def act(self, actions: Any) -> None:
+        """Gives the instances their inputs. ``actions``: (n, …), in the action space."""
+        raise NotImplementedError
+
+    def observe(self) -> Any:
+        """What is seen of the states as they are: a new array (n, …), in the observation space."""
+        raise NotImplementedError
+
+    def judge(self) -> tuple[ArrayLike, ArrayLike]:
+        """Rewards of the step just made, (n,), and whether episodes end by it, (n,) of bool.
+
+        Those of environments that begin in this step do not count.
+        """
+        raise NotImplementedError
+
+    def begin(self, index: int, instance: Instance, random: np.random.Generator) -> None:
+        """Changes an instance at the beginning of an episode: it is at its scene's start, without inputs."""
+
+    def figures(self) -> dict[str, NDArray[Any]]:
+        """More for infos: arrays of n numbers."""
+        return {}
+
+    # What Gymnasium asks for.
+
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begins episodes: observations, (n, …), and infos.
+
+        ``seed``: environment i gets ``seed + i``, or one of a list; None: generators go on. ``options``: with
+        ``reset_mask``, (n,) of bool, only those environments begin. Raises UsageError for other shapes and types.
+        """
+        mask = np.ones(self.num_envs, np.bool_)
+        if options and "reset_mask" in options:
+            mask = np.asarray(options["reset_mask"])
+            if mask.shape != (self.num_envs,) or mask.dtype != np.bool_ or not mask.any():
+                raise UsageError(f"reset_mask is an array of {self.num_envs} bool, at least one of them True")
+        self._seed(seed, mask)
+        self._begin(mask)
+        self._begun = self._begun or bool(mask.all())
+        return self.observe(), _infos(self._figures(), mask)
+
+    def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
+        """Acts for ``every`` s: observations (n, …), rewards, terminations and truncations (n,), and infos.
+
+        ``actions``: (n, …); numbers outside of the space become its nearest ones. Raises UsageError for another shape
+        and for what is not finite, ``gymnasium.error.ResetNeeded`` before the first ``reset()`` and, without automatic
+        resets, after the end of an episode. Ctrl-C (KeyboardInterrupt) leaves instances at different steps: ``reset()``
+        all.
+        """
+        if not self._begun:
+            raise gymnasium.error.ResetNeeded("call reset() before step()")
+        fresh = self._over.copy()
+        if self.autoreset_mode == AutoresetMode.DISABLED and fresh.any():
+            raise gymnasium.error.ResetNeeded(
+                f"the episode of environment {fresh.argmax()} is over: reset(options={{'reset_mask': over}}) begins one"
+            )
+        self.act(self._checked(actions))
+        self._begun = False
+        self.batch.step(self._steps)
+        self._begun = True
+        # All were stepped; those that begin go back after it.
+        if fresh.any():
+            self._begin(fresh)
+        self._made += ~fresh
+        given, ended = self.judge()
+        rewards = np.where(fresh, 0.0, np.asarray(given, np.float64))
+        figures = self._figures()
+        terminations = (np.asarray(ended, np.bool_) | figures["diverged"]) & ~fresh
+        truncations = self._made >= self._most
+        self._over = terminations | truncations
+        observations = self.observe()
+        infos = _infos(figures, np.ones(self.num_envs, np.bool_))
+        if self.autoreset_mode == AutoresetMode.SAME_STEP and self._over.any():
+            over = self._over.copy()
+            last = np.full(self.num_envs, None, dtype=object)
+            for i in np.flatnonzero(over):
+                last[i] = observations[i].copy()
+            self._begin(over)
+            observations = self.observe()
+            infos = {
+                **_infos(self._figures(), np.ones(self.num_envs, np.bool_)),
+                "final_obs": last,
+                "_final_obs": over,
+                "final_info": _infos(figures, over),
+                "_final_info": over.copy(),
+            }
+        return observations, rewards, terminations, truncations, infos
+
+    def render(self) -> tuple[Any, ...] | None:
+        """A picture of each environment, (height, width, 3) of uint8; None without a render mode.
+
+        Needs an OpenGL device, a software rasteriser included (DeviceError). ``picture(i)`` draws a single one.
+        """
+        if self.render_mode is None:
+            return None
+        return tuple(self.picture(i) for i in range(self.num_envs))
+
+    def picture(self, index: int) -> Any:
+        """A picture of one environment, (height, width, 3) of uint8. Raises IndexError, DeviceError."""
+        return np.asarray(self.batch[index].render(*self._size))
+
+    @property  # type: ignore[misc, unused-ignore]
+    def np_random(self) -> tuple[np.random.Generator, ...]:  # type: ignore[override, unused-ignore]
+        """The random generator of each environment."""
+        return tuple(generator for generator, _ in self._random())
+
+    @property
+    def np_random_seed(self) -> tuple[int, ...]:  # type: ignore[misc, override, unused-ignore]
+        """The seed of each of them."""
+        return tuple(seed for _, seed in self._random())
+
+    # Parts.
+
+    def _random(self) -> list[tuple[np.random.Generator, int]]:
+        if self._generators is None:
+            self._generators = [seeding.np_random() for _ in range(self.num_envs)]
+        return self._generators
+
+    def _seed(self, seed: int | Sequence[int | None] | None, mask: NDArray[np.bool_]) -> None:
+        if seed is None:
+            return
+        if isinstance(seed, (int, np.integer)):
+            seeds: list[int | None] = [int(seed) + i for i in range(self.num_envs)]
+        else:
+            seeds = list(seed)
+            if len(seeds) != self.num_envs:
+                raise UsageError(f"{self.num_envs} environments take as many seeds, not {len(seeds)}")
+        for i, (one, wanted) in enumerate(zip(seeds, mask)):
+            if wanted and one is not None:
+                self._random()[i] = seeding.np_random(one)
+
+    def _begin(self, mask: NDArray[np.bool_]) -> None:
+        self.batch.reset(mask)
+        self._made[mask] = 0
+        self._over[mask] = False
+        for i in np.flatnonzero(mask):
+            instance = self.batch[i]
+            instance._core.set_inputs(([], [], [], []))
+            self.begin(int(i), instance, self._random()[i][0])
+
+    def _figures(self) -> dict[str, NDArray[Any]]:
+        return {**self.figures(), "diverged": self.batch.diverged > 0}
+
+    def _checked(self, actions: Any) -> Any:
+        space = self.action_space
+        if not isinstance(space, gymnasium.spaces.Box):
+            if not space.contains(actions):
+                raise UsageError(f"actions are not in {space}")
+            return actions
+        given = np.asarray(actions, space.dtype)
+        if given.shape != space.shape:
+            raise UsageError(f"actions have the shape {space.shape}, not {given.shape}")
+        if not np.isfinite(given).all():
+            raise UsageError(f"the action of environment {np.argwhere(~np.isfinite(given))[0][0]} is not finite")
+        return np.clip(given, space.low, space.high)
+
+
+def _count(name: str, duration: float, h: float) -> int:
+    """How many times h a duration is, to a millionth."""
+    count = round(duration / h) if h > 0 and np.isfinite(duration) else 0
+    if count < 1 or abs(count * h - duration) > 1e-6 * duration:
+        raise UsageError(f"{name} is a multiple of {h:g} s, not {duration} s")
+    return count
+
+
+def _infos(figures: dict[str, NDArray[Any]], mask: NDArray[np.bool_]) -> dict[str, Any]:
+    """In Gymnasium's form: an array by name, and which of its rows count."""
+    infos: dict[str, Any] = {}
+    for name, numbers in figures.items():
+        infos[name] = np.where(mask, numbers, np.zeros((), numbers.dtype))
+        infos[f"_{name}"] = mask.copy()
+    return infos
+
+
+class SingleEnv(gymnasium.Env):  # type: ignore[misc, type-arg, unused-ignore]
+    """A single environment: a BatchEnv of one, for what takes no vectors. Many in one BatchEnv are faster."""
+
+    metadata: dict[str, Any] = BatchEnv.metadata
+
+    def __init__(self, envs: BatchEnv):
+        """``envs``: of one environment, with the mode ``DISABLED``. Raises UsageError for others."""
+        if envs.num_envs != 1 or envs.autoreset_mode != AutoresetMode.DISABLED:
+            raise UsageError("a single environment is a BatchEnv of one, without automatic resets")
+        self.envs = envs
+        self.observation_space = envs.single_observation_space
+        self.action_space = envs.single_action_space
+        self.render_mode = envs.render_mode
+        self.metadata = {name: value for name, value in envs.metadata.items() if name != "autoreset_mode"}
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode: observation and info. ``seed``: of its random generator; None: it goes on."""
+        super().reset(seed=seed)
+        # The generator is Gymnasium's.
+        self.envs._generators = [(self.np_random, self.np_random_seed)]
+        observations, infos = self.envs.reset(options=options)
+        return observations[0], _of_one(infos)
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Acts for ``every`` s: observation, reward, terminated, truncated, info. Raises as ``BatchEnv.step()``."""
+        observations, rewards, terminations, truncations, infos = self.envs.step(np.asarray(action)[None])
+        return observations[0], float(rewards[0]), bool(terminations[0]), bool(truncations[0]), _of_one(infos)
+
+    def render(self) -> Any:
+        """A picture, (height, width, 3) of uint8; None without a render mode."""
+        return None if self.render_mode is None else self.envs.picture(0)
+
+    def close(self) -> None:
+        """Ends its use."""
+        self.envs.close()
+
+
+def _of_one(infos: dict[str, Any]) -> dict[str, Any]:
+    return {name: numbers[0].item() for name, numbers in infos.items() if not name.startswith("_")}
+
+
+def crawler(overrides: dict[str, Any] | None = None) -> Scene:
+    """The scene of ``Crawl``: a soft cube with edges of 1 m and 64 particles of 1 kg, which lies on rough ground.
+
+    ``overrides``: keys and values set afterwards. Raises SceneError.
+    """
+    values: dict[str, Any] = {
+        "name": "crawl",
+        "cube[0].particles-per-edge": 4,
+        "cube[0].edge-length": 1.0,
+        "cube[0].position": [0, -0.5, 0],
+        "cube[0].structural.stiffness": 600.0,
+        "cube[0].shear.stiffness": 600.0,
+        "cube[0].bending.stiffness": 600.0,
+        "contact.restitution": 0.0,
+        "contact.friction": 0.9,
+        "view.camera.position": [1.6, 0.6, 5.0],
+        "view.camera.target": [0.4, -0.5, 0.0],
+        "view.camera.fov": 28.0,
+    }
+    return load("cube-plane", {**values, **(overrides or {})})
+
+
+# A tendon's force hardly changes while its ends move, since they are pulled from this far away [m].
+_FAR = 1000.0
+
+
+class Crawl(BatchEnv):
+    """A soft body crawls along +x by tendons, which draw two of its particles together.
+
+    Action, (m,) of 0 … 1: the tension of each tendon as a part of ``force``, constant for ``every`` s. Both ends feel
+    it, in opposite directions, so tendons cannot push the body as a whole: it has to walk by friction.
+
+    Observation, (2m + 6,) float32, within ±10: a clock, as two triangle waves a quarter of ``cycle`` apart (2,);
+    lengths of the tendons over those at the start, less 1 (m,); their rates over those lengths [1/s] (m,); velocity of
+    the centre of mass [m/s] (3,); how much higher it is than at the start [m] (1,).
+
+    Reward: how far the centre of mass moved along x [m]. infos["distance"]: since the beginning of the episode [m].
+    An episode begins at the scene's start with a random velocity, the same of all particles.
+    """
+
+    ends: NDArray[np.int64]
+    """Particles that each tendon draws together, (m, 2)."""
+
+    def __init__(
+        self,
+        num_envs: int | None = None,
+        scenes: Scene | Path | Iterable[Scene | Path] | None = None,
+        *,
+        tendons: ArrayLike | None = None,
+        force: float = 1000.0,
+        cycle: float = 0.5,
+        push: float = 0.05,
+        **options: Any,
+    ) -> None:
+        """Makes the environments.
+
+        ``scenes``: ``crawler()``, ``num_envs`` times, or others with as many particles in each; ``tendons``: the ends
+        of each, (m, 2) indices of particles, 1 … 128 pairs; None: the eight edges along x and y of the box around the
+        first body; ``force``: the largest tension [N], > 0; ``cycle``: of the clock [s], > 0; ``push``: the largest
+        component of the velocity at the beginning [m/s], ≥ 0; ``options``: those of ``BatchEnv()``. Raises UsageError,
+        SceneError.
+        """
+        if not (force > 0 and cycle > 0 and push >= 0):
+            raise UsageError(f"force and cycle are > 0, push is ≥ 0, not {force}, {cycle}, {push}")
+        made = crawler() if scenes is None else scenes
+        if not isinstance(made, (Scene, str, os.PathLike)):
+            made = list(made)
+        first = made[0] if isinstance(made, list) else made
+        self.ends = _edges(first) if tendons is None else np.array(tendons, np.int64)
+        if self.ends.ndim != 2 or self.ends.shape[1] != 2 or not 1 <= len(self.ends) <= 128:
+            raise UsageError(f"tendons are 1 to 128 pairs of particles, (m, 2), not {self.ends.shape}")
+        m = len(self.ends)
+        box = gymnasium.spaces.Box
+        super().__init__(
+            made,
+            num_envs,
+            observation_space=box(-10.0, 10.0, (2 * m + 6,), np.float32),
+            action_space=box(0.0, 1.0, (m,), np.float32),
+            **options,
+        )
+        self.force, self.cycle, self.push = force, cycle, push
+        x = self.batch.positions.astype(np.float64)
+        if self.ends.min() < 0 or self.ends.max() >= x.shape[1]:
+            raise UsageError(f"a tendon's ends are indices of particles, 0 to {x.shape[1] - 1}")
+        self._masses = np.array([instance.masses for instance in self.batch])[:, :, None]
+        self._rest = self._spans(x)[1]
+        if not (self._rest > 0).all():
+            raise UsageError("the ends of a tendon are at different places")
+        self._start = self._centre(x)
+        self._place = self._start[:, 0].copy()
+
+    def begin(self, index: int, instance: Instance, random: np.random.Generator) -> None:
+        """All particles get the same velocity, each component within ±``push``."""
+        instance.velocities = instance.velocities + random.uniform(-self.push, self.push, 3)
+        self._place[index] = self._start[index, 0]
+
+    def act(self, actions: Any) -> None:
+        """Tensions the tendons."""
+        x = self.batch.positions.astype(np.float64)
+        across, length = self._spans(x)
+        far = across / np.maximum(length, 1e-9)[:, :, None] * _FAR
+        stiffness = self.force * actions.astype(np.float64) / _FAR
+        anchors = np.stack([x[:, self.ends[:, 0]] + far, x[:, self.ends[:, 1]] - far], axis=2)
+        ends = self.ends.tolist()
+        for instance, ks, places in zip(self.batch, stiffness.tolist(), anchors.tolist()):
+            instance.pulls = [
+                Pull(end, place, k) for k, pair, two in zip(ks, ends, places) for end, place in zip(pair, two) if k > 0
+            ]
+
+    def observe(self) -> Floats:
+        """Clock, lengths, rates, velocity and height, (n, 2m + 6)."""
+        x, v = self.batch.positions.astype(np.float64), self.batch.velocities.astype(np.float64)
+        across, length = self._spans(x)
+        difference = v[:, self.ends[:, 1]] - v[:, self.ends[:, 0]]
+        rates = _dot(across, difference) / np.maximum(length, 1e-9)
+        time = self._made * self.every / self.cycle
+        clock = [4 * np.abs((time + shift) % 1.0 - 0.5) - 1 for shift in (0.0, 0.25)]
+        higher = (self._centre(x) - self._start)[:, 1:2]
+        seen = (np.stack(clock, axis=1), length / self._rest - 1, rates / self._rest, self._centre(v), higher)
+        observations: Floats = np.clip(np.concatenate(seen, axis=1), -10, 10).astype(np.float32)
+        return observations
+
+    def judge(self) -> tuple[ArrayLike, ArrayLike]:
+        """How far each went along x since the last step [m]; no episode ends by it."""
+        place = self._centre(self.batch.positions.astype(np.float64))[:, 0]
+        moved = place - self._place
+        self._place = place
+        return moved, np.zeros(self.num_envs, np.bool_)
+
+    def figures(self) -> dict[str, NDArray[Any]]:
+        """The distance since the beginning of the episode [m]."""
+        return {"distance": self._place - self._start[:, 0]}
+
+    def _spans(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """From one end of each tendon to the other, (n, m, 3), and how long that is, (n, m)."""
+        across = x[:, self.ends[:, 1]] - x[:, self.ends[:, 0]]
+        return across, np.sqrt(_dot(across, across))
+
+    def _centre(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Mean by mass, (n, 3), added in the order of the particles, so that it has the same bits everywhere."""
+        sums = np.cumsum(self._masses * vectors, axis=1)[:, -1]
+        return sums / np.cumsum(self._masses, axis=1)[:, -1]  # type: ignore[no-any-return]
+
+
+def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Of the last axis, in a fixed order."""
+    return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
+
+
+def _edges(scene: Scene | Path) -> NDArray[np.int64]:
+    """The edges along x and y of the box around the first body, by the particles nearest to its corners."""
+    sim = Simulation(scene, "cpu", threads=1)
+    if not sim.bodies:
+        raise UsageError("the scene has no body to crawl")
+    body = sim[sim.bodies[0]]
+    signs = list(itertools.product((-1, 1), repeat=3))
+    corner = {sign: body.particles[int((body.positions * np.array(sign)).sum(axis=1).argmax())] for sign in signs}
+    pairs = []
+    for axis in (0, 1):
+        for sign in signs:
+            if sign[axis] < 0:
+                other = tuple(1 if i == axis else s for i, s in enumerate(sign))
+                pairs.append((corner[sign], corner[other]))
+    return np.array(pairs, np.int64)
+
+
+class CrawlEnv(SingleEnv):
+    """A single environment of ``Crawl``: ``gymnasium.make("aspic/Crawl-v0")``."""
+
+    def __init__(self, **options: Any):
+        """``options``: those of ``Crawl()`` but for ``num_envs`` and ``autoreset_mode``."""
+        super().__init__(Crawl(1, autoreset_mode=AutoresetMode.DISABLED, **options))
+
+
 if "aspic/Crawl-v0" not in gymnasium.registry:
     gymnasium.register("aspic/Crawl-v0", entry_point="aspic.gym:CrawlEnv", vector_entry_point="aspic.gym:Crawl")

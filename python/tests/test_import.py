@@ -32,6 +32,12 @@ def test_importing_loads_no_other_package_no_graphics_and_starts_no_thread() -> 
     assert report(REPORT) == {"modules": "aspic" + RUN_TIME, "graphics": "", "threads": "1"}
 
 
+def test_importing_takes_under_a_tenth_of_a_second() -> None:
+    program = "import time; before = time.process_time(); import aspic; print('took', time.process_time() - before)"
+    # Other work on the machine makes it longer, never shorter.
+    assert any(float(report(program)["took"]) < 0.1 for _ in range(5))
+
+
 def test_stepping_on_the_cpu_loads_no_graphics() -> None:
     out = report(REPORT.replace("import aspic\n", "import aspic\naspic.Simulation('cube-plane', 'cpu').step()\n"))
     assert out["graphics"] == ""

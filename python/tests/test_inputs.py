@@ -41,6 +41,23 @@ def test_inputs_repeat_on_every_backend_and_in_the_program(sim: aspic.Simulation
     assert run["state_hash"] == sim.hash
 
 
+def test_one_pull_needs_no_list_and_channels_are_kept(sim: aspic.Simulation) -> None:
+    sim.pulls = aspic.Pull(3, (0, 9, 0), 10.0)
+    sim.channels = np.array([0.5, -2])
+    sim.step(5)
+    assert sim.channels == (0.5, -2.0) and [pull.particle for pull in sim.pulls] == [3]
+    sim.pulls = ()
+    assert sim.channels == (0.5, -2.0) and "channels = [0.5, -2.0]" in sim.input_log
+    sim.save_inputs("channels.toml")
+    again = simulation(sim.scene, "reference")
+    again.replay("channels.toml")
+    again.step(5)
+    assert again.channels == sim.channels and again.hash == sim.hash
+    with pytest.raises(aspic.UsageError, match="channel"):
+        sim.channels = [float("nan")]
+    assert sim.channels == (0.5, -2.0)
+
+
 def test_states_bring_their_inputs_back(sim: aspic.Simulation) -> None:
     start = sim.save()
     act(sim)

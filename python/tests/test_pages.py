@@ -73,6 +73,10 @@ EXAMPLES = {
         ["--generations", "2", "--pairs", "4", "--seconds", "0.2"],
         r"weights 892ca1a7e9ca56a5\ncrawled -0.012 m in 0.2 s, hash 22ca02d0539aa422\n",
     ),
+    "population.py": (
+        ["--cubes", "20", "--particles", "3", "--seconds", "1"],
+        r"20 instances, 20 of them in 2 stacks.*\n(cube \d+: up to \d.*\n){5}\d of 20 diverged\n",
+    ),
     "throw.py": ([], r"cpu ([0-9a-f]{16}), replayed on reference \1\n"),
 }
 

@@ -44,6 +44,20 @@ def test_all_backends_give_the_same_picture_which_is_a_films(scene: aspic.Scene)
     assert np.array_equal(read_png(frames[-1].read_bytes()), sim.render(80, 45))
 
 
+def test_an_instance_of_a_batch_has_the_picture_of_a_simulation(scene: aspic.Scene) -> None:
+    needs_pictures()
+    batch = aspic.Batch(scene, count=2, threads=1)
+    batch.step(100)
+    batch[1].velocities = batch[1].velocities + np.float32([2, 0, 0])
+    batch.step(100)
+    lone = aspic.Simulation(scene, "cpu")
+    lone.step(200)
+    view = {"colour": "strain"}
+    picture = batch[0].render(96, 54, view)
+    assert picture.png() == lone.render(96, 54, view).png()
+    assert not np.array_equal(batch[1].render(96, 54, view), picture)
+
+
 def test_a_view_holds_for_one_picture(scene: aspic.Scene) -> None:
     needs_pictures()
     sim = aspic.Simulation(scene, "cpu")

@@ -176,6 +176,31 @@ def test_energies_momentum_and_bodies(sim: aspic.Simulation) -> None:
         sim["cub"]
 
 
+def test_forces_strains_and_contacts(sim: aspic.Simulation) -> None:
+    body = sim["cube"]
+    assert body.contacts.dtype == np.bool_ and not body.contacts.any() and np.abs(body.strain).max() < 1e-6
+    assert body.forces == pytest.approx(np.tile([0, -9.8, 0], (64, 1)), abs=1e-2)
+    x = sim.positions
+    sim.positions = x * np.float32(1.01)
+    now = sim.quantities
+    assert now.strain == pytest.approx(0.01, abs=1e-5) and body.strain == pytest.approx(0.01, abs=1e-5)
+    assert now.tension == pytest.approx(sim.springs.stiffness * sim.springs.rest_length * 0.01, rel=1e-3)
+    assert body.forces[0] @ x[0] < body.forces[0] @ np.zeros(3) and now.contact.dtype == np.bool_
+    recorded = sim.run(0.0, record=["force", "tension", "contact"])
+    assert recorded["force"][0] == pytest.approx(now.force, rel=1e-6, abs=1e-3)
+    assert recorded["tension"][0] == pytest.approx(now.tension, rel=1e-6)
+    sim.positions = x - np.float32([0, x[:, 1].min() + 1, 0])  # the ground is at −1 m
+    assert body.contacts.sum() == 16 and now.contact.sum() == 0 and sim.quantities.speed.max() == 0
+
+
+def test_devices_say_what_works_and_why_not() -> None:
+    rows = {device.backend: device for device in aspic.devices()}
+    assert list(rows) == ["gpu", "cpu", "reference"]
+    for backend in ("cpu", "reference"):
+        assert rows[backend].name == aspic.Simulation("cube-plane", backend).device and not rows[backend].reason
+    assert bool(rows["gpu"].name) != bool(rows["gpu"].reason)
+
+
 def test_bodies_and_balls_have_their_own_numbers() -> None:
     sim = aspic.Simulation("cube-and-balls", "cpu")
     ball = sim["ball[0]"]
@@ -292,6 +317,7 @@ import aspic
 sim = aspic.Simulation("cube-plane", "auto")
 sim.step(5)
 print(sim.backend, sim.reason)
+assert "libegl1" in aspic.devices()[0].reason and aspic.devices()[1].name
 for fail in (lambda: aspic.Simulation("cube-plane", "gpu"), sim.render, lambda: sim.film("f", steps=1)):
     try:
         fail()
