@@ -130,14 +130,17 @@ def main() -> None:
     def median(name: str, key: str) -> float:
         return statistics.median(float(row[key]) for row in rows[name][1:])  # type: ignore[arg-type]
 
-    print("| | lines of code | s to the first result: first time | later | steps/s | Aspic's | hash repeats | off by |")
+    print(
+        "| | lines of code | first result, the first time | first result, later | steps/s | Aspic's rate over it "
+        "| the hash repeats | off by |"
+    )
     print("|---|---|---|---|---|---|---|---|")
     for name, program in PROGRAMS.items():
         hashes = [row["hash"] for row in rows[name]]
         ratio = median("Aspic", "rate_of_processor") / median(name, "rate_of_processor")
         print(
-            f"| {name} {version(name)} | {lines_of(program)} | {rows[name][0]['first']:.1f} "
-            f"| {median(name, 'first'):.2f} | {median(name, 'rate'):,.0f} | {ratio:.3g}× "
+            f"| {name} {version(name)} | {lines_of(program)} | {rows[name][0]['first']:.1f} s "
+            f"| {median(name, 'first'):.2f} s | {median(name, 'rate'):,.0f} | {ratio:.3g}× "
             f"| {hashes.count(hashes[-1])} of {len(hashes)} | {apart[name]:.1g} m |"
         )
     print(f"\nMedians of {arguments.repeats} processes each, in turn; the ratio is by the processor's time.")
