@@ -294,6 +294,15 @@ def test_pictures_are_of_each_environment() -> None:
     envs.close()
 
 
+def test_every_public_name_has_a_docstring() -> None:
+    for name in aspic.gym.__all__:
+        thing = getattr(aspic.gym, name)
+        assert thing.__doc__, name
+        for key in vars(thing) if isinstance(thing, type) and thing is not AutoresetMode else ():
+            if callable(getattr(thing, key)) and not key.startswith("_"):
+                assert getattr(thing, key).__doc__, f"{name}.{key}"
+
+
 def test_importing_needs_gymnasium_and_says_so() -> None:
     program = "import sys; sys.modules['gymnasium'] = None\nimport aspic\nprint('core')\nimport aspic.gym"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)

@@ -66,3 +66,7 @@ quietly "$place/checker/bin/twine" check --strict "$sdist" "$wheel"
 quietly "$place/checker/bin/check-wheel-contents" "$wheel"
 cd "$place"
 ASPIC_PROGRAM=$program "$place/user/bin/python" -B -m pytest -q -p no:cacheprovider "$source/python/tests"
+# Also where there is no EGL: an empty file is none.
+mkdir no-egl
+touch no-egl/libEGL.so.1
+LD_LIBRARY_PATH=$place/no-egl ASPIC_PROGRAM=$program "$place/user/bin/python" -B -m pytest -q -p no:cacheprovider "$source/python/tests"
