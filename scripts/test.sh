@@ -27,7 +27,8 @@ full      core, and by label:
   independent  the independent implementation of the physics
   packages     the Python package from source distribution to wheel to a fresh environment; its sweeps on Dask and submitit;
                its notebooks; the cube that learns to crawl, to the end
-  exports      files for other programs, read by VTK, USD, trimesh, zarr and xarray from PyPI (600 MB)
+  exports      files for other programs, read by VTK, USD, trimesh, zarr and xarray from PyPI (600 MB),
+               and by Blender's library (1 GB)
   attack       damaged files, limits, faults and kills (scripts/attack.sh)
           and without a label:
   sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers

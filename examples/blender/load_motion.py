@@ -70,7 +70,8 @@ def load(path: str, speed: float = 1.0) -> bpy.types.Object:
     interval = shape.said["interval"]
     if interval > 0:
         motion.frame_scale = speed / (interval * fps)
-        scene.frame_end = scene.frame_start + math.ceil((shape.said["samples"] - 1) * interval * fps / speed)
+        frames = (shape.said["samples"] - 1) * interval * fps / speed
+        scene.frame_end = scene.frame_start + math.ceil(frames - 1e-6)  # rounding adds no frame
     return thing
 
 
