@@ -48,6 +48,8 @@ draw elevator 2 elevator
 draw ball-pit 2.2 ball-pit
 draw curtain 1.25 curtain
 draw flag 2.25 flag
+draw bridge 0.7 bridge
+draw swing 0.42 swing
 for scene in plane:1.25 tilted-plane:1 sphere:1 bowl:1.2; do
   draw course-2021-${scene%:*} ${scene#*:} course-2021-${scene%:*}
 done

@@ -17,8 +17,9 @@
 namespace aspic {
 
 /// A key's value: what it is in a file decides the alternative.
-using ParameterValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3,
-                                    std::vector<int>, std::vector<double>, PinnedSettings>;
+using ParameterValue =
+    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3, std::vector<int>,
+                 std::vector<double>, PinnedSettings, CellLayers, CellPalette>;
 
 /// A row of docs/scene-reference.md.
 struct ParameterInfo {
@@ -35,7 +36,8 @@ ASPIC_API std::vector<ParameterInfo> list_parameters();
 /// The keys that have a meaning in a scene, each element of its lists by index: `cube[0].shear.stiffness`.
 ASPIC_API std::vector<std::string> list_keys(const Scene& scene);
 
-/// The value of a key, a path with an index for each list. Nothing where the key is absent, or has no meaning
+/// The value of a key, a path with an index for each list, or the name of an element that has one
+/// (`material[fat].density`). Nothing where the key is absent, or has no meaning
 /// in this scene: a material's density for a cube that has none. Error (scene_rejected): an unknown key, with
 /// the nearest one; an index that the scene does not have.
 ASPIC_API Result<std::optional<ParameterValue>> value_of(const Scene& scene, const std::string& key);

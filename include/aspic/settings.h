@@ -127,6 +127,9 @@ struct MaterialSettings {
   double density = 16.0;            ///< ρ [kg/m³], > 0
   double youngs_modulus = 33000.0;  ///< E [Pa], > 0
   double damping_ratio = 0.95;      ///< ζ, ≥ 0
+  /// In ModelSettings::materials its name, which bodies use; elsewhere the one of these that takes the place
+  /// of the numbers, empty for none.
+  std::string name = {};
 };
 
 /// A rotation by an angle about an axis, right-handed.
@@ -166,6 +169,34 @@ struct CubeSettings {
   friend BodyRow row_of(const CubeSettings&);
 };
 
+/// What becomes of cells that hang together in several pieces, by the faces they share.
+enum class Pieces { refuse, largest, all };
+
+/// Every choice, in the order in which they are listed for users.
+inline constexpr Named<Pieces> piece_choices[] = {
+    {Pieces::refuse, "refuse"}, {Pieces::largest, "largest"}, {Pieces::all, "all"}};
+
+/// Layers of cells upwards (y), each of rows from back to front (z), each of characters from left to right
+/// (x): '.', '0' and ' ' are empty, any other stands for a material.
+using CellLayers = std::vector<std::vector<std::string>>;
+/// Materials by the character of their cells.
+using CellPalette = std::map<std::string, std::string, std::less<>>;
+
+/// A body of cubic cells, each of a material or empty; particles are at their corners.
+struct VoxelsSettings {
+  std::string name = {};                               ///< unique where it is not empty
+  double size = 0.5;                                   ///< edge of a cell [m], > 0
+  Vec3 position = {0.0, 6.0, 0.0};                     ///< of the centre of all cells, the empty ones too [m]
+  RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};  ///< about that centre
+  Vec3 velocity = {0.0, 0.0, 0.0};                     ///< [m/s]
+  CellLayers layers = {{"1.1", "1.1"}, {"111", "111"}};  ///< as many rows, and as many characters, in each
+  CellPalette palette = {};        ///< names of ModelSettings::materials; empty: all are of `material`
+  MaterialSettings material = {};  ///< of every cell where there is no palette
+  Pieces pieces = Pieces::refuse;  ///< of several
+  PinnedSettings pinned = {};      ///< none by default
+  friend BodyRow row_of(const VoxelsSettings&);
+};
+
 /// Springs of a net that may be left out.
 struct OptionalSpringSettings {
   double stiffness = 0.0;  ///< k [N/m], ≥ 0; 0: there are no such springs
@@ -181,6 +212,8 @@ struct GoalNetSettings {
   double particle_mass = 0.2;           ///< m [kg], > 0
   SpringSettings structural = {1500.0, 50.0};  ///< between neighbours
   OptionalSpringSettings shear, bending;       ///< none by default
+  std::optional<MaterialSettings> material;    ///< of its cords, instead of mass and springs
+  double cord_diameter = 0.01;                 ///< d [m], > 0; with `material`
   bool cord = false;                           ///< springs resist stretch only
   friend BodyRow row_of(const GoalNetSettings&);
 };
@@ -194,7 +227,9 @@ struct ClothSettings {
   Vec3 velocity = {0.0, 0.0, 0.0};                     ///< [m/s]
   double particle_mass = 0.02;                         ///< m [kg], > 0
   SpringSettings structural = {400.0, 0.8}, shear = {200.0, 0.4}, bending = {20.0, 0.04};  ///< by type
-  PinnedSettings pinned;  ///< none by default
+  std::optional<MaterialSettings> material;  ///< instead of particle_mass and the three spring settings
+  double thickness = 0.001;                  ///< t [m], > 0; with `material`
+  PinnedSettings pinned;                     ///< none by default
 
   /// Particles along each axis: one layer.
   std::array<int, 3> lattice() const { return {particles[0], particles[1], 1}; }
@@ -239,7 +274,9 @@ struct ModelSettings {
   SimulationSettings simulation;            ///< time step, method and gravity
   ContactSettings contact;                  ///< defaults of every terrain, and of balls
   std::vector<TerrainSettings> terrain;     ///< in file order, as all lists here
+  std::vector<MaterialSettings> materials;  ///< those that have names, for every body
   std::vector<CubeSettings> cubes;          ///< each ≥ 2³ particles
+  std::vector<VoxelsSettings> voxels;       ///< bodies of cells
   std::vector<GoalNetSettings> goal_nets;   ///< open boxes of springs
   std::vector<ClothSettings> cloths;        ///< rectangles
   std::vector<BallSettings> balls;          ///< there from step 0
@@ -247,14 +284,15 @@ struct ModelSettings {
 };
 
 /// The kinds of bodies, in the order in which the model makes them and files list them.
-inline constexpr std::tuple body_lists = {&ModelSettings::cubes, &ModelSettings::goal_nets,
-                                          &ModelSettings::cloths, &ModelSettings::balls,
-                                          &ModelSettings::launchers};
+inline constexpr std::tuple body_lists = {&ModelSettings::cubes,     &ModelSettings::voxels,
+                                          &ModelSettings::goal_nets, &ModelSettings::cloths,
+                                          &ModelSettings::balls,     &ModelSettings::launchers};
 
 /// Names in scene files and reports.
 ASPIC_API std::string_view name_of(Integrator integrator);
 ASPIC_API std::string_view name_of(ContactModel model);
 ASPIC_API std::string_view name_of(SpringType type);
+ASPIC_API std::string_view name_of(Pieces pieces);
 ASPIC_API std::string_view name_of(TerrainShape shape);
 
 }  // namespace aspic

@@ -3,6 +3,7 @@
 import copy
 import math
 import os
+import pathlib
 import pickle
 
 import aspic
@@ -18,7 +19,7 @@ def test_every_builtin_scene_loads_and_reads_back() -> None:
 
 
 def test_every_key_can_be_read_and_set_to_what_it_is() -> None:
-    for name in ("cube-plane", "goal-net", "flag", "elevator"):
+    for name in ("cube-plane", "goal-net", "flag", "elevator", "bridge", "swing"):
         scene = aspic.load(name)
         assert len(scene) == len(scene.keys()) > 20
         for key in scene:
@@ -40,6 +41,36 @@ def test_values_have_the_types_of_python(scene: aspic.Scene) -> None:
     assert scene["view.follow"] is None and scene["cube[0].material.density"] is None
     scene["cube[0].pinned"] = ["top", 3]
     assert scene["cube[0].pinned"] == ["top", 3]
+
+
+def test_bodies_of_cells_are_lists_dicts_and_arrays(tmp_path: pathlib.Path) -> None:
+    text = """
+schema = 1
+[material]
+muscle = { density = 1000.0, youngs-modulus = 1e5, damping-ratio = 0.1 }
+fat = { density = 900.0 }
+[[voxels]]
+name = "worm"
+layers = [["12"]]
+palette = { 1 = "muscle", 2 = "fat" }
+"""
+    scene = aspic.Scene(text)
+    assert scene["voxels[worm].layers"] == [["12"]]
+    assert scene["voxels[0].palette"] == {"1": "muscle", "2": "fat"}
+    assert scene["material[fat].density"] == 900.0
+    scene["material[fat].density"] = 800
+    scene["voxels[worm].palette"] = {"#": "fat", "1": "muscle", "2": "muscle"}
+    scene["voxels[worm].layers"] = [["12", "##"], ["1.", "#."]]
+    assert aspic.Simulation(scene).positions.shape == (24, 3)
+    cells = np.zeros((3, 2, 1), dtype=np.uint8)
+    cells[:, 0] = 1
+    cells[1, 1] = 12
+    np.save(tmp_path / "body.npy", cells)
+    path = str(tmp_path / "body.npy")
+    scene.update({"voxels[worm].palette": {"1": "muscle", "12": "fat"}, "voxels[worm].file": path})
+    assert [len(row) for layer in scene["voxels[worm].layers"] for row in layer] == [3, 3]
+    with pytest.raises(aspic.SceneError, match="did you mean 'fat'"):
+        scene["material[fta].density"] = 1.0
 
 
 def test_values_of_python_and_numpy_are_taken(scene: aspic.Scene) -> None:

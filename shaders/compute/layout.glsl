@@ -3,7 +3,7 @@
 #include "shared/layout.glsl"
 
 #define MAX_STAGES 4
-#define MAX_SPRING_CLASSES 256
+#define MAX_SPRING_CLASSES 640
 #define MAX_TERRAINS 64
 #define MAX_PULLS 256  // most_pulls of src/model/inputs.h
 #define MAX_POSES 510  // of moving terrain, in the table of the next steps: 16 KiB with its head

@@ -49,6 +49,7 @@
 #define BINDING_EXTREMES 7    // uint[EXTREMES]: of what colours show
 #define BINDING_SPRING_CLASSES 3   // SpringClass[]
 #define BINDING_SECTION 2     // Section, then uvec4[]: tetrahedra that a cut crosses
+#define BINDING_SECTION_CELLS 1  // uint[8 · cells]: corners of the full cells of a lattice
 #define BINDING_TURNS 1       // vec4[balls]: unit quaternions, from a ball's own frame to the world
 
 // Uniform blocks of the solvers' kernels, and of pictures.

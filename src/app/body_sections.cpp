@@ -47,7 +47,7 @@ std::size_t body_count(const ModelSettings& settings) {
 /// The line of one body, with a button that removes it. True if it was removed.
 bool body_line(Gui& gui, SceneControl& scene, const SettingsList& list, std::size_t i) {
   const bool last_body = body_count(scene.scene().model) == 1;
-  const std::string name = spaced(list.key);
+  const std::string name = noun_of(list.key);
   const std::string help =
       last_body
           ? "The last body cannot be removed: without one, nothing would move."
@@ -64,7 +64,7 @@ bool body_line(Gui& gui, SceneControl& scene, const SettingsList& list, std::siz
 
 /// A button below a list that adds an element to it. True if it was pressed.
 bool add_button(Gui& gui, std::string_view key, std::string_view help) {
-  return button(gui, fmt::format("{}/add", key).c_str(), fmt::format("Add a {}", spaced(key)).c_str(),
+  return button(gui, fmt::format("{}/add", key).c_str(), fmt::format("Add a {}", noun_of(key)).c_str(),
                 fmt::format("{}\n\nScene key: [[{}]]", help, key), true, -1.0f);
 }
 
@@ -74,7 +74,7 @@ void add_body_button(Gui& gui, SceneControl& scene, const SettingsList& list) {
           fmt::format(
               "Adds a {}, a copy of the last one if there is one, next to the existing bodies. Restarts the "
               "simulation.",
-              spaced(list.key))))
+              noun_of(list.key))))
     add_body(scene, list);
 }
 
@@ -214,7 +214,9 @@ void bodies_section(Gui& gui, SceneControl& scene) {
 
 void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
   const std::size_t count = scene.scene().model.cubes.size();
-  if (count == 0) ImGui::TextDisabled("No cube; springs of other bodies are under Bodies.");
+  const auto& materials = scene.scene().model.materials;
+  if (count == 0 && materials.empty())
+    ImGui::TextDisabled("No cube; springs of other bodies are under Bodies.");
   for (std::size_t i = 0; i < count; ++i) {
     ImGui::PushID(static_cast<int>(i));
     if (count > 1) group_heading(fmt::format("cube {}", i));
@@ -240,6 +242,12 @@ void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
       }
     }
     ImGui::PopID();
+  }
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    group_heading(fmt::format("material {}", materials[i].name));
+    edit(gui, scene, "material[].density", i);
+    edit(gui, scene, "material[].youngs-modulus", i, {"Young's modulus"});
+    edit(gui, scene, "material[].damping-ratio", i);
   }
   shown_springs(gui, scene);
 }

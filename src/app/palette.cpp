@@ -105,7 +105,7 @@ std::vector<Palette::Hit> Palette::find(const PanelParts& p) {
         {.help = std::string(builtin.description), .act = [&p, name] { p.scene.open(name); }});
   }
   for (const BodyRow& row : body_rows())
-    add(fmt::format("add a {}", spaced(row.list.key)), "",
+    add(fmt::format("add a {}", noun_of(row.list.key)), "",
         {.help = "Next to the existing bodies. Restarts the simulation.",
          .act = [&p, &row] { add_body(p.scene, row.list); }});
   for (const std::string& body : followed_names(scene))

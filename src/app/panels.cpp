@@ -39,7 +39,7 @@ constexpr Heading left_sections[] = {
     {"Scene", [](Parts p) { scene_section(p.gui, p.scene); },
      "Scenes and terrain; opening, saving and reloading."},
     {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); },
-     "Cubes, nets, balls and launchers of the scene: place, size, mass, pins."},
+     "Cubes, bodies of cells, nets, cloths, balls and launchers of the scene: place, size, mass, pins."},
     {"Contact", [](Parts p) { contact_section(p.gui, p.scene); },
      "Contact model, restitution, friction, and the terrain's own values."},
     {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); },

@@ -192,6 +192,24 @@ std::optional<Value> widget(const Field& f, std::vector<std::string> value) {
   return check_boxes(f, value) ? std::optional<Value>(value) : std::nullopt;
 }
 
+/// How many cells there are; a file changes them.
+std::optional<Value> widget(const Field&, const CellLayers& layers) {
+  const bool any = !layers.empty() && !layers.front().empty();
+  ImGui::TextUnformatted(fmt::format("{} × {} × {} cells", any ? layers.front().front().size() : 0,
+                                     layers.size(), any ? layers.front().size() : 0)
+                             .c_str());
+  return std::nullopt;
+}
+
+/// Materials as a file has them.
+std::optional<Value> widget(const Field&, const CellPalette& palette) {
+  std::string text;
+  for (const auto& [cell, name] : palette)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", cell, name);
+  ImGui::TextUnformatted(text.empty() ? "none" : text.c_str());
+  return std::nullopt;
+}
+
 /// Sides by name; corners and indices that the file gives stay as they are.
 std::optional<Value> widget(const Field& f, PinnedSettings value) {
   return check_boxes(f, value.names) ? std::optional<Value>(value) : std::nullopt;
@@ -254,13 +272,17 @@ std::string elided_path(const std::string& path, float width) {
 }
 
 void add_body(SceneControl& scene, const SettingsList& list) {
-  scene.change("add " + spaced(list.key), [&](Scene& s) { aspic::add_body(s, list); });
+  scene.change("add " + noun_of(list.key), [&](Scene& s) { aspic::add_body(s, list); });
 }
 
 std::string spaced(std::string_view key) {
   std::string words(key);
   for (const char c : {'-', '.'}) std::ranges::replace(words, c, ' ');
   return words;
+}
+
+std::string noun_of(std::string_view key) {
+  return key == "voxels" ? "body of cells" : spaced(key);
 }
 
 std::string capitalized(std::string words) {

@@ -41,6 +41,8 @@ void add_body(SceneControl& scene, const SettingsList& list);
 
 /// "particle-mass" as "particle mass", and with a capital; not empty.
 std::string spaced(std::string_view key);
+/// What people call one element of a list of bodies: "goal net", "body of cells".
+std::string noun_of(std::string_view key);
 std::string capitalized(std::string words);
 
 /// What people read for the words of a parameter, in their order.

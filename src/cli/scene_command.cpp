@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "analysis/stability.h"
 #include "aspic/scene.h"
@@ -11,10 +12,48 @@
 #include "cli/json.h"
 #include "io/program.h"
 #include "model/counts.h"
+#include "model/voxels.h"
 #include "run/capacity.h"
 #include "scene/import_configuration.h"
 
 namespace aspic::cli {
+namespace {
+
+/// What is printed of each body of cells.
+struct CellFacts {
+  std::size_t cells = 0, materials = 0, pieces = 0, hinges = 0;
+};
+
+CellFacts facts_of(const ModelSettings& settings, const VoxelsSettings& voxels) {
+  const auto found = shape_of(voxels);
+  const auto* const shape = std::get_if<VoxelShape>(&found);  // the scene was checked
+  if (!shape) return {};
+  const std::size_t pieces = voxels.pieces == Pieces::all ? shape->pieces : 1;
+  return {shape->full, materials_of(settings, voxels, *shape).materials.size(), pieces,
+          hinges(shape->lattice)};
+}
+
+std::string cells_text(const ModelSettings& settings, const VoxelsSettings& voxels) {
+  const auto several = [](std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  const CellFacts f = facts_of(settings, voxels);
+  return fmt::format("cells        {} of {}, {}, {}{}\n", f.cells, several(f.materials, "material"),
+                     several(f.pieces, "piece"), several(f.hinges, "hinge"),
+                     voxels.name.empty() ? "" : fmt::format(" ({})", printable_line(voxels.name)));
+}
+
+Json cells_of(const ModelSettings& settings) {
+  Json all = Json::array();
+  for (const VoxelsSettings& voxels : settings.voxels) {
+    const CellFacts f = facts_of(settings, voxels);
+    all.push_back(
+        {{"cells", f.cells}, {"materials", f.materials}, {"pieces", f.pieces}, {"hinges", f.hinges}});
+  }
+  return all;
+}
+
+}  // namespace
 
 Status execute(const SceneListOptions& options) {
   const std::vector<BuiltinScene> scenes = list_builtin_scenes();
@@ -88,6 +127,7 @@ Status execute(const SceneCheckOptions& options) {
                                                      {"bending", counts.bending},
                                                      {"total", counts.springs()}}},
                                     {"balls", counts.balls},
+                                    {"voxels", cells_of(scene.model)},
                                     {"model_bytes", model_bytes(model)},
                                     {"state_bytes", state_bytes(counts)},
                                     {"bytes", bytes},
@@ -101,6 +141,7 @@ Status execute(const SceneCheckOptions& options) {
     text += fmt::format("springs      {} ({} structural, {} shear, {} bending)\n", counts.springs(),
                         counts.structural, counts.shear, counts.bending);
     text += fmt::format("balls        {}\n", counts.balls);
+    for (const VoxelsSettings& voxels : scene.model.voxels) text += cells_text(scene.model, voxels);
     const std::uint64_t shared = model_bytes(model) + state_bytes(counts);
     text += fmt::format("memory       {:<24} {:>10}\n", "model", human_bytes(model_bytes(model)));
     text += fmt::format("memory       {:<24} {:>10}\n", "state", human_bytes(state_bytes(counts)));

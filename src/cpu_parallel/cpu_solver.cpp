@@ -43,10 +43,13 @@ class CpuSolver final : public Solver {
         balls_(*model_),
         workers_(std::move(workers)) {
     std::size_t margin = slice;
+    const bool staged = row_of(model_->simulation.integrator).staged();
     for (const Body& body : model_->bodies) {
       if (body.box()) {
         springs_.emplace_back(std::in_place_type<Lattice>, *model_, body);
         margin = std::max(margin, std::get<Lattice>(springs_.back()).reach() + slice);
+      } else if (auto bands = staged && body.lattice ? Bands::of(*model_, body) : std::nullopt) {
+        springs_.emplace_back(*std::move(bands));
       } else {
         springs_.emplace_back(std::in_place_type<SpringLists>, *model_, body);
       }

@@ -15,6 +15,8 @@ constexpr std::size_t piece_size = 1024;
 /// Planes of a task of a cube, at least, where a cube is cut into more tasks than there are threads: at its
 /// lower side springs of two planes are evaluated again.
 constexpr std::size_t least_planes = 24;
+/// Of a task of a body with bands, as many particles as the springs reach that many times.
+constexpr std::size_t least_reaches = 12;
 
 /// Calls f(part) for parts of a range of at most `size`.
 template <class F>
@@ -39,14 +41,19 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
       inverse_mass_(parts.inverse_mass),
       arithmetic_(parts.arithmetic),
       workers_(parts.workers) {
-  std::size_t plane_size = 0, row_size = 0;
+  std::size_t plane_size = 0, row_size = 0, reach = 0, most = 0;
   for (std::size_t body = 0; body < springs_.size(); ++body) {
     if (const auto* const lattice = std::get_if<Lattice>(&springs_[body])) {
       plane_size = std::max(plane_size, lattice->plane_size());
       row_size = std::max(row_size, lattice->row_size());
     }
+    if (const auto* const bands = std::get_if<Bands>(&springs_[body])) {
+      reach = std::max(reach, bands->reach());
+      most = std::max(most, bands->most());
+    }
     cut(body);
   }
+  for (unsigned n = 0; most > 0 && n < workers_.threads(); ++n) band_sweeps_.emplace_back(reach, most);
   for (unsigned n = 0; plane_size > 0 && n < workers_.threads(); ++n)
     sweeps_.emplace_back(plane_size, row_size);
   ExplicitSteps::constants_changed();
@@ -61,10 +68,11 @@ void ExplicitSteps::constants_changed() {
 }
 
 std::uint64_t ExplicitSteps::bytes() const {
-  std::uint64_t sum =
-      sizeof(*this) + bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) + bytes_of(sweeps_);
+  std::uint64_t sum = sizeof(*this) + bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) +
+                      bytes_of(sweeps_) + bytes_of(band_sweeps_);
   for (const Task& task : tasks_) sum += bytes_of(task.near) + bytes_of(task.resting);
   for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
+  for (const BandSweep& sweep : band_sweeps_) sum += sweep.bytes();
   return bodies_ ? sum + bodies_->bytes() : sum;
 }
 
@@ -72,6 +80,13 @@ void ExplicitSteps::cut(std::size_t body) {
   const auto add = [&](Range range) { tasks_.push_back({body, range, {}, true, {}, {}}); };
   if (const auto* const lists = std::get_if<SpringLists>(&springs_[body]))
     return for_parts({lists->first(), lists->count()}, piece_size, add);
+  if (const auto* const bands = std::get_if<Bands>(&springs_[body])) {
+    // At its lower side springs that reach into a task are evaluated again.
+    const std::size_t least = std::max(least_reaches * bands->reach(), band_piece);
+    const std::size_t parts = workers_.threads() == 1 ? 1 : std::max<std::size_t>(1, bands->count() / least);
+    const std::size_t size = (bands->count() + parts - 1) / parts;
+    return for_parts({bands->first(), bands->count()}, (size + slice - 1) / slice * slice, add);
+  }
   const auto& lattice = std::get<Lattice>(springs_[body]);
   const std::size_t planes = lattice.planes(), threads = workers_.threads();
   const std::size_t tasks =
@@ -155,6 +170,8 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
         finish(task, stage, near, {lattice->first() + plane * size + own.first, own.count}, forces, moved);
       });
     }
+  } else if (std::holds_alternative<Bands>(springs_[task.body])) {
+    run_bands(task, stage, input, near, moved);
   } else {
     const auto& lists = std::get<SpringLists>(springs_[task.body]);
     listed_forces(lists, input, {task.range.first - lists.first(), task.range.count}, forces);
@@ -164,6 +181,26 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   task.sound = moved.sound;
   if (touching_) return;  // the others move first
   end(task, stage);
+}
+
+void ExplicitSteps::run_bands(Task& task, const StageMove& stage, const ForceInput& input, bool near,
+                              Moved& moved) {
+  alignas(64) float f[3][band_piece + slice];
+  const Forces forces = {{f[0], f[1], f[2]}};
+  const auto& bands = std::get<Bands>(springs_[task.body]);
+  BandSweep& sweep = band_sweeps_[workers_.current()];
+  const std::size_t from = task.range.first - bands.first();
+  const std::size_t below = from - std::min(from, (bands.reach() + slice - 1) / slice * slice);
+  sweep.begin(bands, input, below);
+  for_parts({below, from - below}, band_piece, [&](Range part) {
+    band_ghosts(bands, input, sweep, part.count, from);
+    sweep.advance(bands, input, part.count);
+  });
+  for_parts({from, task.range.count}, band_piece, [&](Range own) {
+    band_forces(bands, input, sweep, own.count, forces);
+    finish(task, stage, near, {bands.first() + own.first, own.count}, forces, moved);
+    sweep.advance(bands, input, (own.count + slice - 1) / slice * slice);
+  });
 }
 
 /// What ends a stage of a task whose particles have moved.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "cpu_parallel/band_kernels.h"
 #include "cpu_parallel/lattice_kernels.h"
 #include "cpu_parallel/steps.h"
 #include "cpu_reference/body_contact.h"
@@ -40,6 +41,7 @@ class ExplicitSteps final : public Steps {
 
   void cut(std::size_t body);
   void run(Task& task, const StageMove& stage);
+  void run_bands(Task& task, const StageMove& stage, const ForceInput& input, bool near, Moved& moved);
   void finish(Task& task, const StageMove& stage, bool near, Range range, const Forces& forces, Moved& moved);
   void pull(const StageMove& stage, Range range, const Forces& forces);
   void add_contact(Task& task, const StageMove& stage, Range range, const Forces& forces);
@@ -62,7 +64,8 @@ class ExplicitSteps final : public Steps {
   Arithmetic arithmetic_;
   Workers& workers_;
   std::vector<Task> tasks_;
-  std::vector<Sweep> sweeps_;  // by thread
+  std::vector<Sweep> sweeps_;           // by thread
+  std::vector<BandSweep> band_sweeps_;  // by thread
   Particles between_, sums_;
   bool known_ = false;                                     ///< the boxes, and what is near
   std::unique_ptr<reference::BodyContact<float>> bodies_;  ///< none where none can touch

@@ -35,14 +35,12 @@ std::array<float*, 3> from(BlockVectors& a, std::size_t n) {
 }
 
 Jacobians jacobians_of(const Springs& springs, float h) {
-  return std::visit(
-      [&](const auto& each) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(each)>, Lattice>)
-          return Jacobians(each, h, each.planes() * each.plane_size() <= most_kept_particles);
-        else
-          return Jacobians(each, h, each.count() <= most_kept_particles);
-      },
-      springs);
+  return with_springs(springs, [&](const auto& each) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(each)>, Lattice>)
+      return Jacobians(each, h, each.planes() * each.plane_size() <= most_kept_particles);
+    else
+      return Jacobians(each, h, each.count() <= most_kept_particles);
+  });
 }
 
 }  // namespace
@@ -73,7 +71,7 @@ void ImplicitEuler::constants_changed() {
   limits_ = reference::SolveLimits<float>(model_->simulation.implicit);
   h_ = static_cast<float>(model_->simulation.timestep);
   for (std::size_t body = 0; body < springs_.size(); ++body)
-    std::visit([&](const auto& each) { jacobians_[body].set_constants(each, h_); }, springs_[body]);
+    with_springs(springs_[body], [&](const auto& each) { jacobians_[body].set_constants(each, h_); });
 }
 
 std::uint64_t ImplicitEuler::bytes() const {
@@ -167,8 +165,8 @@ void ImplicitEuler::forces(const Block& block, const Linearisation& at, BlockFor
     const std::size_t n = segment.first - block.range.first;
     LinearisedForces to = {from(out.f, n), {}};
     for (std::size_t c = 0; c < 6; ++c) to.block[c] = out.diagonal[c].of + n;
-    std::visit([&](const auto& springs) { linearise(springs, jacobians_[segment.body], at, segment, to); },
-               springs_[segment.body]);
+    with_springs(springs_[segment.body],
+                 [&](const auto& springs) { linearise(springs, jacobians_[segment.body], at, segment, to); });
   }
   for (std::size_t k = 0; k < dynamics_.pulls().size(); ++k) {
     const reference::PullConstants<float>& pull = dynamics_.pulls()[k];
@@ -273,12 +271,10 @@ void ImplicitEuler::multiply_block(const Block& block, const VectorArray& p) {
   const Range& range = block.range;
   BlockVectors product;
   for (const Segment& segment : block.segments) {
-    std::visit(
-        [&](const auto& springs) {
-          multiply(springs, jacobians_[segment.body], at(end_->v, h_), p, segment,
-                   from(product, segment.first - range.first));
-        },
-        springs_[segment.body]);
+    with_springs(springs_[segment.body], [&](const auto& springs) {
+      multiply(springs, jacobians_[segment.body], at(end_->v, h_), p, segment,
+               from(product, segment.first - range.first));
+    });
   }
   for (std::size_t k = 0; k < dynamics_.pulls().size(); ++k) {
     const auto i = static_cast<std::size_t>(dynamics_.pulls()[k].particle);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "aspic/solver.h"
+#include "cpu_parallel/bands.h"
 #include "cpu_parallel/springs.h"
 #include "cpu_parallel/workers.h"
 #include "cpu_reference/dynamics.h"
@@ -14,7 +15,14 @@
 
 namespace aspic::parallel {
 
-using Springs = std::variant<Lattice, SpringLists>;
+using Springs = std::variant<Lattice, Bands, SpringLists>;
+
+/// Calls act(springs) of what every method takes: bands are for explicit ones.
+template <class Act>
+auto with_springs(const Springs& springs, const Act& act) {
+  if (const auto* const lattice = std::get_if<Lattice>(&springs)) return act(*lattice);
+  return act(std::get<SpringLists>(springs));
+}
 
 /// What steps of any kind work with. Everything must outlive them.
 struct StepParts {

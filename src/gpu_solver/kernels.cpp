@@ -128,7 +128,7 @@ Result<layout::Simulation> simulation_block(const Model& model) {
     return advised(fail(ErrorCode::scene_rejected,
                         "the scene has {} kinds of springs and {} terrains; the gpu backend holds {} and {}.",
                         model.spring_classes.size(), model.terrain.size(), MAX_SPRING_CLASSES, MAX_TERRAINS),
-                   {use_backend("cpu"), advice("use fewer bodies and terrains")});
+                   {use_backend("cpu"), advice("use fewer bodies, materials and terrains")});
   }
   layout::Simulation block{};
   block.gravity = rounded(model.simulation.gravity, fall_speed(model));

@@ -22,7 +22,8 @@ std::span<const BodyRow> body_rows() {
 
 std::span<const SettingsList> settings_lists() {
   static const std::vector<SettingsList> lists = [] {
-    std::vector<SettingsList> all = {settings_list<&ModelSettings::terrain>("terrain")};
+    std::vector<SettingsList> all = {settings_list<&ModelSettings::terrain>("terrain"),
+                                     settings_list<&ModelSettings::materials>("material")};
     for (const BodyRow& body : body_rows()) all.push_back(body.list);
     return all;
   }();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "base/result.h"
@@ -32,8 +33,10 @@ struct BodyRow {
   Status (*add)(Model&, const ModelSettings&, std::size_t);
   const PinNames* pins = nullptr;  ///< what its key `pinned` may name; null: it has no such key
   const PinnedSettings* (*pinned)(const ModelSettings&, std::size_t) = nullptr;  ///< null where `pins` is
-  /// Of the particles that those names speak of: pinned_particles(). Null where `pins` is.
-  std::array<int, 3> (*lattice)(const ModelSettings&, std::size_t) = nullptr;
+  /// Which of a body's particles such names and indices speak of, by local index; errors as
+  /// pinned_particles(). Null where `pins` is.
+  Result<std::vector<bool>> (*named)(const PinNames&, const ModelSettings&, std::size_t,
+                                     const PinnedSettings&) = nullptr;
 };
 
 /// A list that is a vector of the settings.
@@ -47,19 +50,28 @@ SettingsList settings_list(std::string_view key) {
 }
 
 /// The row of bodies in a vector of the settings: `Counts` takes the settings of one and returns its
-/// ModelCounts, `Add` takes the model and the settings of one and returns a Status.
+/// ModelCounts, `Add` takes the model and the settings of one and returns a Status; with all settings before
+/// it where the body may be of a named material.
 template <auto Member, auto Counts, auto Add>
 BodyRow body_row(std::string_view key, std::string_view size_key, const PinNames* pins = nullptr) {
   BodyRow row = {settings_list<Member>(key),
                  size_key.empty() ? std::vector<std::string_view>() : std::vector{size_key},
                  [](const ModelSettings& s, std::size_t i) -> ModelCounts { return Counts((s.*Member)[i]); },
                  [](Model& model, const ModelSettings& s, std::size_t i) -> Status {
-                   return Add(model, (s.*Member)[i]);
+                   if constexpr (std::is_invocable_v<decltype(Add), Model&, const ModelSettings&,
+                                                     decltype((s.*Member)[i])>)
+                     return Add(model, s, (s.*Member)[i]);
+                   else
+                     return Add(model, (s.*Member)[i]);
                  },
                  pins};
   if constexpr (requires(const ModelSettings& s) { (s.*Member)[0].pinned; }) {
     row.pinned = [](const ModelSettings& s, std::size_t i) { return &(s.*Member)[i].pinned; };
-    row.lattice = [](const ModelSettings& s, std::size_t i) { return (s.*Member)[i].lattice(); };
+    if constexpr (requires(const ModelSettings& s) { (s.*Member)[0].lattice(); })
+      row.named = [](const PinNames& names, const ModelSettings& s, std::size_t i,
+                     const PinnedSettings& pinned) {
+        return pinned_particles(names, pinned, (s.*Member)[i].lattice());
+      };
   }
   return row;
 }
@@ -67,7 +79,7 @@ BodyRow body_row(std::string_view key, std::string_view size_key, const PinNames
 /// All of them, in the order of body_lists.
 std::span<const BodyRow> body_rows();
 
-/// Every list of a scene file: terrain, then the bodies.
+/// Every list of a scene file: terrain, materials, then the bodies.
 std::span<const SettingsList> settings_lists();
 
 }  // namespace aspic

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "model/bodies.h"
+#include "model/material.h"
 
 namespace aspic {
 namespace {
@@ -53,11 +54,19 @@ std::vector<Rod> rods_of(const Model& model, std::uint32_t first, std::uint32_t 
 }
 
 /// Particle i·h + j is the i-th along the width and the j-th along the height. Error (scene_rejected): an
-/// unknown edge or corner, or an index ≥ w·h, in `pinned`.
-Status add_cloth(Model& model, const ClothSettings& cloth) {
+/// unknown edge or corner, or an index ≥ w·h, in `pinned`; an unknown material, or one that cells of this
+/// shape cannot have.
+Status add_cloth(Model& model, const ModelSettings& settings, const ClothSettings& cloth) {
   const auto [w, h] = cloth.particles;
   const double sx = cloth.size[0] / (w - 1), sy = cloth.size[1] / (h - 1);
   ASPIC_TRY(const std::vector<bool> pinned, pinned_particles(cloth_pins, cloth.pinned, cloth.lattice()));
+  SheetSprings sheet = {cloth.particle_mass, cloth.structural, cloth.structural,
+                        cloth.shear,         cloth.bending,    cloth.bending};
+  if (cloth.material) {
+    ClothSettings made = cloth;
+    ASPIC_TRY(made.material, material_of(settings, *cloth.material));
+    ASPIC_TRY(sheet, sheet_springs(made));
+  }
 
   Body body;
   body.first_particle = model.particle_count();
@@ -66,11 +75,11 @@ Status add_cloth(Model& model, const ClothSettings& cloth) {
   const auto add_class = [&](SpringType type, const SpringSettings& springs, double rest_length) {
     model.spring_classes.push_back({type, springs.stiffness, springs.damping, rest_length, false});
   };
-  add_class(SpringType::structural, cloth.structural, sx);
-  add_class(SpringType::structural, cloth.structural, sy);
-  add_class(SpringType::shear, cloth.shear, length(Vec3{sx, sy, 0.0}));
-  add_class(SpringType::bending, cloth.bending, 2.0 * sx);
-  add_class(SpringType::bending, cloth.bending, 2.0 * sy);
+  add_class(SpringType::structural, sheet.along_width, sx);
+  add_class(SpringType::structural, sheet.along_height, sy);
+  add_class(SpringType::shear, sheet.shear, length(Vec3{sx, sy, 0.0}));
+  add_class(SpringType::bending, sheet.bending_width, 2.0 * sx);
+  add_class(SpringType::bending, sheet.bending_height, 2.0 * sy);
   body.class_count = static_cast<std::uint32_t>(model.spring_classes.size()) - body.first_class;
 
   const Rotation turned(cloth.rotation.axis, cloth.rotation.angle);
@@ -81,8 +90,8 @@ Status add_cloth(Model& model, const ClothSettings& cloth) {
       const Vec3 from_centre = {i * sx - cloth.size[0] / 2.0, j * sy - cloth.size[1] / 2.0, 0.0};
       model.initial_position.push_back(cloth.position + turned(from_centre));
       model.initial_velocity.push_back(held ? Vec3{} : cloth.velocity);
-      model.mass.push_back(cloth.particle_mass);
-      model.inverse_mass.push_back(held ? 0.0 : 1.0 / cloth.particle_mass);
+      model.mass.push_back(sheet.mass);
+      model.inverse_mass.push_back(held ? 0.0 : 1.0 / sheet.mass);
       const std::uint32_t a = body.first_particle + static_cast<std::uint32_t>(local);
       for (const Direction& d : directions) {
         if (i + d.di >= w || j + d.dj < 0 || j + d.dj >= h) continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/bodies.h"
+#include "model/material.h"
 #include "model/springs.h"
 
 namespace aspic {
@@ -73,14 +74,13 @@ double material_particle_mass(const CubeSettings& cube) {
 }
 
 SpringSettings material_springs(const CubeSettings& cube) {
-  const double mass = material_particle_mass(cube);
-  SpringSettings springs;
-  springs.stiffness = cube.material->youngs_modulus * spacing_of(cube) / 7.3125;
-  springs.damping = 2.0 * cube.material->damping_ratio * std::sqrt(springs.stiffness * mass / 2.0);
-  return springs;
+  return lattice_springs(*cube.material, spacing_of(cube), material_particle_mass(cube));
 }
 
-Status add_cube(Model& model, const CubeSettings& cube) {
+namespace {
+
+/// Appends a cube whose material, if it has one, holds numbers.
+Status add_made(Model& model, const CubeSettings& cube) {
   const double s = spacing_of(cube);
   ASPIC_TRY(const auto pinned, pinned_particles(cube_pins, cube.pinned, cube.lattice()));
   const std::optional<SpringSettings> same =
@@ -115,6 +115,15 @@ Status add_cube(Model& model, const CubeSettings& cube) {
   }
   model.bodies.push_back(std::move(body));
   return {};
+}
+
+}  // namespace
+
+Status add_cube(Model& model, const ModelSettings& settings, const CubeSettings& cube) {
+  if (!cube.material || cube.material->name.empty()) return add_made(model, cube);
+  CubeSettings made = cube;
+  ASPIC_TRY(made.material, material_of(settings, *cube.material));
+  return add_made(model, made);
 }
 
 BodyRow row_of(const CubeSettings&) {

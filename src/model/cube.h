@@ -34,7 +34,8 @@ double material_particle_mass(const CubeSettings& cube);
 SpringSettings material_springs(const CubeSettings& cube);
 
 /// Appends the cube to the model.
-/// Error (scene_rejected): an unknown face or corner name, or an index that is no particle, in `pinned`.
-Status add_cube(Model& model, const CubeSettings& cube);
+/// Errors (scene_rejected): an unknown face or corner name, or an index that is no particle, in `pinned`; a
+/// material that the scene does not have.
+Status add_cube(Model& model, const ModelSettings& settings, const CubeSettings& cube);
 
 }  // namespace aspic

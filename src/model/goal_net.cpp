@@ -1,10 +1,12 @@
 #include "model/goal_net.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "model/bodies.h"
+#include "model/material.h"
 
 namespace aspic {
 namespace {
@@ -24,6 +26,22 @@ bool share_face(const std::array<int, 3>& n, int i, int j, int k, const Offset& 
 Vec3 spacing_of(const GoalNetSettings& net) {
   return {net.size.x / (net.particles[0] - 1), net.size.y / (net.particles[1] - 1),
           net.size.z / (net.particles[2] - 1)};
+}
+
+/// The springs of a cord of the net's material and of this length: k = E·A/ℓ.
+SpringSettings cord_springs(const GoalNetSettings& net, double length, double mass) {
+  const double area = std::numbers::pi / 4.0 * net.cord_diameter * net.cord_diameter;
+  const double stiffness = net.material->youngs_modulus * area / length;
+  return {stiffness, damping_of(*net.material, stiffness, mass)};
+}
+
+/// Mass of a particle: that of all cords between neighbours, shared equally.
+double cord_mass(const GoalNetSettings& net) {
+  const auto [nw, nh, nl] = net.particles;
+  const int along_x = nl + 2 * (nh - 1), along_y = nl + 2 * (nw - 1), along_z = nh + nw - 1;
+  const double length = along_x * net.size.x + along_y * net.size.y + along_z * net.size.z;
+  return net.material->density * std::numbers::pi / 4.0 * net.cord_diameter * net.cord_diameter * length /
+         static_cast<double>(goal_net_counts(net).particles);
 }
 
 /// Adds a class for each direction of one type and returns the directions, with both signs of diagonals.
@@ -80,10 +98,10 @@ ModelCounts goal_net_counts(const GoalNetSettings& net) {
   // Lines along each axis that lie in a face, times the springs of a line.
   const std::uint64_t along_x = nl + 2 * (nh - 1), along_y = nl + 2 * (nw - 1), along_z = nh + nw - 1;
   counts.structural = along_x * (nw - 1) + along_y * (nh - 1) + along_z * (nl - 1);
-  if (net.shear.stiffness > 0.0) {
+  if (net.shear.stiffness > 0.0 && !net.material) {
     counts.shear = 2 * ((nh - 1) * (nl - 1) + (nw - 1) * (nl - 1) + 2 * (nw - 1) * (nh - 1));
   }
-  if (net.bending.stiffness > 0.0) {
+  if (net.bending.stiffness > 0.0 && !net.material) {
     counts.bending = along_x * (nw - 2) + along_y * (nh - 2) + along_z * (nl - 2);
   }
   counts.listed = counts.springs();
@@ -115,9 +133,15 @@ bool net_pinned(const std::array<int, 3>& lattice, int i, int j, int k) {
 /// Appends the net's particles and springs to the model, springs sorted by (a, b). A spring joins two
 /// particles that lie in one face: structural neighbours along an axis, shear along the diagonals of a face's
 /// cells, bending two steps along an axis; shear and bending only if their stiffness is positive. One spring
-/// class for each type and direction, since the spacings along the axes differ. Never
-/// fails.
-Status add_goal_net(Model& model, const GoalNetSettings& net) {
+/// class for each type and direction, since the spacings along the axes differ. Error
+/// (scene_rejected): an unknown material.
+Status add_goal_net(Model& model, const ModelSettings& settings, const GoalNetSettings& given) {
+  GoalNetSettings net = given;
+  if (net.material) {
+    ASPIC_TRY(net.material, material_of(settings, *given.material));
+    net.shear = net.bending = {};
+    net.particle_mass = cord_mass(net);
+  }
   const auto [nw, nh, nl] = net.particles;
   const Vec3 s = spacing_of(net);
   Body body;
@@ -137,6 +161,12 @@ Status add_goal_net(Model& model, const GoalNetSettings& net) {
   if (net.bending.stiffness > 0.0) {
     add_directions(model, body, s,
                    {SpringType::bending, net.bending.stiffness, net.bending.damping, 0.0, net.cord}, offsets);
+  }
+  for (std::size_t c = body.first_class; net.material && c < model.spring_classes.size(); ++c) {
+    SpringClass& cord = model.spring_classes[c];
+    const SpringSettings springs = cord_springs(net, cord.rest_length, net.particle_mass);
+    cord.stiffness = springs.stiffness;
+    cord.damping = springs.damping;
   }
   // Lexicographic order of the steps is ascending index of the other end, so springs come out sorted.
   std::sort(offsets.begin(), offsets.end(), [](const Offset& a, const Offset& b) {

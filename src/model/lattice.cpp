@@ -36,28 +36,37 @@ bool Lattice::has_particle(const Place& place) const {
   return false;
 }
 
-bool Lattice::has_spring(const Place& place, const LatticeDirection& direction) const {
+SpringCells cells_along(const Lattice& lattice, const Lattice::Place& place,
+                        const LatticeDirection& direction) {
   const std::array<int, 3> steps = {direction.di, direction.dj, direction.dk};
-  if (!contains(place) || !contains({place[0] + steps[0], place[1] + steps[1], place[2] + steps[2]}))
-    return false;
-  if (all_full()) return true;
+  SpringCells found;
   // Rows of cells that have both ends on them: along an axis with steps their way, on the others either side.
   const int length = std::max({std::abs(steps[0]), std::abs(steps[1]), std::abs(steps[2])});
   for (int sides = 0; sides < 8; ++sides) {
-    bool row = true;
+    const std::size_t before = found.count;
     for (int n = 0; n < length; ++n) {
-      Place cell = place;
+      Lattice::Place cell = place;
+      bool twice = false;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (steps[axis] == 0)
-          cell[axis] -= sides >> axis & 1;
-        else
-          cell[axis] += steps[axis] > 0 ? n : -1 - n;
+        const int side = sides >> axis & 1;
+        twice = twice || (side == 1 && steps[axis] != 0);
+        cell[axis] += steps[axis] == 0 ? -side : steps[axis] > 0 ? n : -1 - n;
       }
-      row = row && full(cell);
+      if (twice || !lattice.full(cell)) {
+        found.count = before;
+        break;
+      }
+      found.at[found.count++] = cell;
     }
-    if (row) return true;
   }
-  return false;
+  return found;
+}
+
+bool Lattice::has_spring(const Place& place, const LatticeDirection& direction) const {
+  if (!contains(place) ||
+      !contains({place[0] + direction.di, place[1] + direction.dj, place[2] + direction.dk}))
+    return false;
+  return all_full() || cells_along(*this, place, direction).count > 0;
 }
 
 std::vector<std::uint32_t> particle_numbers(const Lattice& lattice) {

@@ -95,6 +95,15 @@ struct Lattice {
   friend bool operator==(const Lattice&, const Lattice&) = default;
 };
 
+/// The full cells that have both ends of a spring, row by row; of a spring over two steps, those of rows in
+/// which both cells are full. None: there is no such spring.
+struct SpringCells {
+  std::array<Lattice::Place, 8> at = {};
+  std::size_t count = 0;
+};
+SpringCells cells_along(const Lattice& lattice, const Lattice::Place& place,
+                        const LatticeDirection& direction);
+
 /// Where there is no particle.
 inline constexpr std::uint32_t no_particle = 0xffffffffu;
 /// By point: which of the lattice's particles it is, counted in the order of points, or no_particle.

@@ -220,12 +220,14 @@ gl::VertexArray ModelBuffers::shaded_skin_array() const {
   return gl::VertexArray::create(attributes, &skin_corners_);
 }
 
-gl::VertexArray ModelBuffers::array(const gl::Buffer& particles, const gl::Buffer* indices) const {
+gl::VertexArray ModelBuffers::array(const gl::Buffer& particles, const gl::Buffer* indices,
+                                    const gl::Buffer* places) const {
   constexpr std::uint32_t stride = sizeof(layout::Particle);
   const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &particles, 4, stride, 0},
                                       {ATTRIBUTE_VELOCITY, &particles, 4, stride, 16},
-                                      {ATTRIBUTE_QUANTITY, &quantity_, 1, 4, 0}};
-  return gl::VertexArray::create(attributes, indices);
+                                      {ATTRIBUTE_QUANTITY, &quantity_, 1, 4, 0},
+                                      {ATTRIBUTE_NORMAL, places, 3, 12, 0}};
+  return gl::VertexArray::create(std::span(attributes).first(places ? 4 : 3), indices);
 }
 
 }  // namespace aspic

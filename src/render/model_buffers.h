@@ -66,9 +66,11 @@ class ModelBuffers {
   gl::VertexArray shaded_skin_array() const;
   gl::VertexArray skin_array(const gl::Buffer& particles) const { return array(particles, &skin_indices_); }
   gl::VertexArray particle_array(const gl::Buffer& particles) const { return array(particles, nullptr); }
-  /// The particles that a buffer of 32-bit indices names.
-  gl::VertexArray listed_array(const gl::Buffer& particles, const gl::Buffer& indices) const {
-    return array(particles, &indices);
+  /// The particles that a buffer of 32-bit indices names; `places`, unless null: three floats of each, as
+  /// ATTRIBUTE_NORMAL.
+  gl::VertexArray listed_array(const gl::Buffer& particles, const gl::Buffer& indices,
+                               const gl::Buffer* places = nullptr) const {
+    return array(particles, &indices, places);
   }
   gl::VertexArray spring_array(const gl::Buffer& particles) const {
     return array(particles, &spring_indices_);
@@ -94,7 +96,8 @@ class ModelBuffers {
 
  private:
   ModelBuffers() = default;
-  gl::VertexArray array(const gl::Buffer& particles, const gl::Buffer* indices) const;
+  gl::VertexArray array(const gl::Buffer& particles, const gl::Buffer* indices,
+                        const gl::Buffer* places = nullptr) const;
 
   std::uint32_t particle_count_ = 0, skin_vertices_ = 0, class_bits_ = 0;
   double spacing_ = 1.0;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "gpu/pass.h"
 #include "render/colour_map.h"
@@ -18,12 +20,27 @@ constexpr std::uint32_t tetrahedra_of_cell = 6, corners = 4;
 /// Cells that are looked at together at most: 4 MiB of tetrahedra if all are crossed.
 constexpr std::uint32_t most_cells = (4u << 20) / (sizeof(std::uint32_t) * tetrahedra_of_cell * corners);
 
-/// Of a box; 0: the body is none, or has no inside.
+/// The body's full cells; 0: it is no lattice, or has no inside.
 std::uint32_t cells_of(const Body& body) {
-  if (body.style != SurfaceStyle::flesh || !body.box()) return 0;
-  std::uint32_t cells = 1;
-  for (const int along : body.box()->cells()) cells *= static_cast<std::uint32_t>(along);
-  return cells;
+  if (body.style != SurfaceStyle::flesh || !body.lattice) return 0;
+  std::size_t cells = 1;
+  for (const int along : body.lattice->cells()) cells *= static_cast<std::size_t>(along);
+  if (!body.lattice->all_full())
+    cells = static_cast<std::size_t>(std::ranges::count(body.lattice->full_cells, true));
+  return static_cast<std::uint32_t>(cells);
+}
+
+/// Local indices of the corners of each full cell, in the order that the shader has them.
+std::vector<std::uint32_t> corners_of(const Lattice& lattice) {
+  const std::vector<std::uint32_t> numbers = particle_numbers(lattice);
+  const std::array<int, 3> cells = lattice.cells();
+  std::vector<std::uint32_t> all;
+  for (int i = 0; i < cells[0]; ++i)
+    for (int j = 0; j < cells[1]; ++j)
+      for (int k = 0; k < cells[2]; ++k)
+        for (int corner = 0; corner < 8 && lattice.full({i, j, k}); ++corner)
+          all.push_back(numbers[lattice.index({i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)})]);
+  return all;
 }
 
 }  // namespace
@@ -55,13 +72,44 @@ Result<std::unique_ptr<SectionPainter>> SectionPainter::create(gl::Context& cont
   };
   const gl::Define picked[] = {{"PICKED", "1"}};
   ASPIC_TRY(painter->crossed_, gl::Program::compute(context, library, "render/section.comp"));
+  const gl::Define listed[] = {{"LISTED_CELLS", "1"}};
+  ASPIC_TRY(painter->crossed_listed_, gl::Program::compute(context, library, "render/section.comp", listed));
   ASPIC_TRY(painter->colour_, drawing("render/section.frag"));
   ASPIC_TRY(painter->thickness_, drawing("render/thickness.frag"));
   ASPIC_TRY(painter->identities_, drawing("render/pick_section.frag", picked));
   return painter;
 }
 
+Status SectionPainter::list_cells(const Model& model) {
+  const auto listed = [](const Body& body) { return cells_of(body) > 0 && !body.box(); };
+  std::vector<std::pair<std::uint32_t, std::optional<Lattice>>> lattices;
+  for (const Body& body : model.bodies)
+    lattices.emplace_back(body.particle_count, listed(body) ? body.lattice : std::nullopt);
+  if (lattices == lattices_) return {};
+  std::vector<float> places;
+  corners_.resize(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (!listed(body)) continue;
+    const std::vector<std::uint32_t> corners = corners_of(*body.lattice);
+    ASPIC_TRY(corners_[b], gl::Buffer::of(*context_, "cells of a lattice", corners));
+    places.resize(std::size_t{3} * model.particle_count());
+    auto at = places.begin() + std::ptrdiff_t{3} * body.first_particle;
+    for (std::size_t point = 0; point < body.lattice->points(); ++point) {
+      const Lattice::Place place = body.lattice->place(point);
+      if (body.lattice->has_particle(place)) at = std::ranges::copy(place, at).out;
+    }
+  }
+  places_ = {};
+  if (!places.empty()) {
+    ASPIC_TRY(places_, gl::Buffer::of(*context_, "places in lattices", places));
+  }
+  lattices_ = std::move(lattices);
+  return {};
+}
+
 Status SectionPainter::prepare(const Model& model) {
+  ASPIC_CHECK(list_cells(model));
   std::uint32_t most = 0;
   for (const Body& body : model.bodies) most = std::max(most, cells_of(body));
   most = std::min(most, most_cells);
@@ -73,26 +121,32 @@ Status SectionPainter::prepare(const Model& model) {
   return {};
 }
 
-void SectionPainter::draw_body(const gl::Program& program, const Body& body,
+void SectionPainter::draw_body(const gl::Program& program, const Model& model, std::size_t number,
                                const gl::Buffer& particles) const {
+  const Body& body = model.bodies[number];
   const std::uint32_t cells = cells_of(body);
   if (cells == 0) return;
+  std::vector<gl::Binding> bindings = {{BINDING_PARTICLES, &particles}, {BINDING_SECTION, &tetrahedra_}};
+  const gl::Program& crossed = body.box() ? crossed_ : crossed_listed_;
   std::array<std::uint32_t, 4> size = {};
-  std::ranges::copy(body.box()->particles, size.begin());
-  const gl::Pass find(crossed_, {{BINDING_PARTICLES, &particles}, {BINDING_SECTION, &tetrahedra_}},
-                      gl::ReadBy::vertex_draw | gl::ReadBy::indirect);
-  for (const gl::Program* p : {&crossed_, &program}) {
-    p->set(LOCATION_FIRST, body.first_particle);
-    p->set(LOCATION_LATTICE, size);
+  if (body.box()) {
+    std::ranges::copy(body.box()->particles, size.begin());
+    crossed.set(LOCATION_LATTICE, size);
+  } else {
+    bindings.push_back({BINDING_SECTION_CELLS, &corners_[number]});
   }
+  program.set(LOCATION_LATTICE, size);
+  program.set(LOCATION_FIRST, body.first_particle);
+  const gl::Pass find(crossed, bindings, gl::ReadBy::vertex_draw | gl::ReadBy::indirect);
+  crossed.set(LOCATION_FIRST, body.first_particle);
   for (std::uint32_t first = 0; first < cells; first += cells_) {
     const std::uint32_t count = std::min(cells_, cells - first);
     SectionDraw empty = {};
     empty.instances = 1;
     empty.first_index = sizeof(SectionDraw) / sizeof(std::uint32_t);
     tetrahedra_.upload_items(std::span(&empty, 1));
-    crossed_.set(LOCATION_CELL, first);
-    crossed_.set(LOCATION_COUNT, count);
+    crossed.set(LOCATION_CELL, first);
+    crossed.set(LOCATION_COUNT, count);
     find.dispatch_for(count);
     glUseProgram(program.id());
     glDrawElementsIndirect(GL_LINES_ADJACENCY, GL_UNSIGNED_INT, nullptr);
@@ -105,14 +159,15 @@ void SectionPainter::draw(SectionUse use, const Model& model, const ModelBuffers
   const gl::Program& program = use == SectionUse::colour      ? colour_
                                : use == SectionUse::thickness ? thickness_
                                                               : identities_;
-  const gl::VertexArray array = buffers.listed_array(particles, tetrahedra_);
+  const gl::VertexArray array =
+      buffers.listed_array(particles, tetrahedra_, places_.bytes() > 0 ? &places_ : nullptr);
   array.bind();
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, tetrahedra_.id());
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     if (use == SectionUse::colour)
       program.set(LOCATION_BASE_COLOUR,
                   with_alpha(colour == ViewColour::material ? body_colour(i) : neutral_body_colour(), 1.0));
-    draw_body(program, model.bodies[i], particles);
+    draw_body(program, model, i, particles);
   }
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }

@@ -1,6 +1,9 @@
 #pragma once
 // The inside of bodies where a plane cuts them.
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "aspic/scene.h"
 #include "base/result.h"
@@ -34,7 +37,7 @@ class SkinsCut {
   bool on_;
 };
 
-/// Fills the parts of complete cubes that the frame block's section plane crosses, cell by cell as deformed.
+/// Fills the parts of lattices that the frame block's section plane crosses, cell by cell as deformed.
 /// Its context must outlive it and be current.
 class SectionPainter {
  public:
@@ -52,10 +55,18 @@ class SectionPainter {
 
  private:
   explicit SectionPainter(gl::Context& context) : context_(&context) {}
-  void draw_body(const gl::Program& program, const Body& body, const gl::Buffer& particles) const;
+  void draw_body(const gl::Program& program, const Model& model, std::size_t body,
+                 const gl::Buffer& particles) const;
+
+  /// Corners and places of lattices whose cells are not all full, if they are not those listed before.
+  Status list_cells(const Model& model);
 
   gl::Context* context_;
-  gl::Program crossed_, colour_, thickness_, identities_;
+  gl::Program crossed_, crossed_listed_, colour_, thickness_, identities_;
+  // By body: its particles, and its lattice if that is listed.
+  std::vector<std::pair<std::uint32_t, std::optional<Lattice>>> lattices_;
+  std::vector<gl::Buffer> corners_;  // by body, of its full cells
+  gl::Buffer places_;                // by particle
   mutable gl::Buffer tetrahedra_;
   std::uint32_t cells_ = 0;  // that there is room for
 };

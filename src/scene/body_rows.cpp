@@ -15,6 +15,18 @@ Parameter pins(std::string_view body, Parameter p) {
   return p;
 }
 
+/// A row of a text or table whose emptiness is the absence of the key.
+template <class Access>
+Parameter unless_empty(std::string_view meaning_of_absence, std::string_view path, Access access,
+                       std::string_view meaning) {
+  Parameter p = fixed(absent(meaning_of_absence, row(path, access, meaning)));
+  p.read = [](const Parameter& self, const Scene& scene, std::size_t index) -> std::optional<Value> {
+    const auto& field = Access{}(scene, index);
+    return field.empty() ? std::nullopt : to_value(self, field);
+  };
+  return p;
+}
+
 // Stiffness and damping of a body's springs of one type; `which` ends "the springs …".
 #define SPRINGS(list, type, field, which)                                           \
   row(list "[]." type ".stiffness", "N/m", stiffness, FIELD(model.field.stiffness), \
@@ -49,6 +61,29 @@ Rows particle_rows() {
   return {edges, box};
 }
 
+/// Keys of the material that a body is made of, whose numbers decide masses and springs.
+#define MATERIAL_ROWS(list, access, density_meaning, modulus_meaning)                                   \
+  Rows {                                                                                                \
+    of_name(row(list "[].material.name", access(name),                                                  \
+                "Name of the [[material]] that it is made of, in place of the numbers.")),              \
+        of_numbers(                                                                                     \
+            row(list "[].material.density", "kg/m³", positive_mass, access(density), density_meaning)), \
+        of_numbers(row(list "[].material.youngs-modulus", "Pa", {0.0, stiffest, true},                  \
+                       access(youngs_modulus), modulus_meaning)),                                       \
+        of_numbers(row(list "[].material.damping-ratio", "", {0.0, 1e6}, access(damping_ratio),         \
+                       "Damping ratio ζ, from which c = 2ζ√(k·m/2)."))                                  \
+  }
+
+Parameter of_name(Parameter p) {
+  p.belonging = Belonging::material_name;
+  p.when_absent = "none: the numbers are here";
+  return p;
+}
+Parameter of_numbers(Parameter p) {
+  p.belonging = Belonging::material_numbers;
+  return p;
+}
+
 Rows cube_rows() {
 #define MATERIAL(field) FIELD_IN(model.cubes[i].material, field)
   return joined(
@@ -63,61 +98,113 @@ Rows cube_rows() {
            SPRINGS("cube", "structural", cubes[i].structural, "between axis neighbours"),
            SPRINGS("cube", "shear", cubes[i].shear, "along face and body diagonals"),
            SPRINGS("cube", "bending", cubes[i].bending, "between particles two steps apart along an axis")}),
-       of(Belonging::material,
-          {row("cube[].material.density", "kg/m³", positive_mass, MATERIAL(density),
-               "Density ρ, from which m = ρ·edge³/n³, or ρ·volume over the particles of a box."),
-           row("cube[].material.youngs-modulus", "Pa", {0.0, stiffest, true}, MATERIAL(youngs_modulus),
-               "Young's modulus E along an axis, from which k = E·s/7.3125 at spacing s."),
-           row("cube[].material.damping-ratio", "", {0.0, 1e6}, MATERIAL(damping_ratio),
-               "Damping ratio ζ, from which c = 2ζ√(k·m/2).")}),
+       MATERIAL_ROWS("cube", MATERIAL,
+                     "Density ρ, from which m = ρ·edge³/n³, or ρ·volume over the particles of a box.",
+                     "Young's modulus E along an axis, from which k = E·s/7.3125 at spacing s."),
        {fixed(pins("cube", row("cube[].pinned", FIELD(model.cubes[i].pinned),
                                "Particles that never move: faces, corners such as left-top-front, or local "
                                "indices.")))}});
 }
 
 Rows net_rows() {
-  return {
-      fixed(row("goal-net[].particles", "", {2, 512}, FIELD(model.goal_nets[i].particles),
-                "Lattice points nw, nh, nl along width (x), height (y) and length (z).")),
-      fixed(row("goal-net[].size", "m", positive_length, FIELD(model.goal_nets[i].size),
-                "Width, height and length; the front, towards +x, and the bottom are open.")),
-      fixed(row("goal-net[].position", "m", within(far), FIELD(model.goal_nets[i].position),
-                "Centre of the box.")),
-      row("goal-net[].particle-mass", "kg", positive_mass, FIELD(model.goal_nets[i].particle_mass),
-          "Mass m of each particle."),
-      SPRINGS("goal-net", "structural", goal_nets[i].structural, "between axis neighbours"),
-      fixed(row("goal-net[].shear.stiffness", "N/m", stiffness, FIELD(model.goal_nets[i].shear.stiffness),
-                "Stiffness k of the springs along the diagonals of the faces' cells; 0: there are none.")),
-      row("goal-net[].shear.damping", "N·s/m", damping, FIELD(model.goal_nets[i].shear.damping),
-          "Damping c of the springs along face diagonals."),
-      fixed(
-          row("goal-net[].bending.stiffness", "N/m", stiffness, FIELD(model.goal_nets[i].bending.stiffness),
-              "Stiffness k of the springs between particles two steps apart in a face; 0: there are none.")),
-      row("goal-net[].bending.damping", "N·s/m", damping, FIELD(model.goal_nets[i].bending.damping),
-          "Damping c of the springs between particles two steps apart."),
-      row("goal-net[].cord", FIELD(model.goal_nets[i].cord),
-          "Whether its springs resist stretch only, like a cord."),
-  };
+#define NET_MATERIAL(field) FIELD_IN(model.goal_nets[i].material, field)
+  return joined(
+      {{fixed(row("goal-net[].particles", "", {2, 512}, FIELD(model.goal_nets[i].particles),
+                  "Lattice points nw, nh, nl along width (x), height (y) and length (z).")),
+        fixed(row("goal-net[].size", "m", positive_length, FIELD(model.goal_nets[i].size),
+                  "Width, height and length; the front, towards +x, and the bottom are open.")),
+        fixed(row("goal-net[].position", "m", within(far), FIELD(model.goal_nets[i].position),
+                  "Centre of the box."))},
+       of(Belonging::explicit_springs,
+          {row("goal-net[].particle-mass", "kg", positive_mass, FIELD(model.goal_nets[i].particle_mass),
+               "Mass m of each particle."),
+           SPRINGS("goal-net", "structural", goal_nets[i].structural, "between axis neighbours"),
+           fixed(
+               row("goal-net[].shear.stiffness", "N/m", stiffness, FIELD(model.goal_nets[i].shear.stiffness),
+                   "Stiffness k of the springs along the diagonals of the faces' cells; 0: there are none.")),
+           row("goal-net[].shear.damping", "N·s/m", damping, FIELD(model.goal_nets[i].shear.damping),
+               "Damping c of the springs along face diagonals."),
+           fixed(row("goal-net[].bending.stiffness", "N/m", stiffness,
+                     FIELD(model.goal_nets[i].bending.stiffness),
+                     "Stiffness k of the springs between particles two steps apart in a face; 0: there are "
+                     "none.")),
+           row("goal-net[].bending.damping", "N·s/m", damping, FIELD(model.goal_nets[i].bending.damping),
+               "Damping c of the springs between particles two steps apart.")}),
+       MATERIAL_ROWS("goal-net", NET_MATERIAL,
+                     "Density ρ of the cords, whose mass the particles share equally.",
+                     "Young's modulus E of the cords, from which k = E·π/4·d²/ℓ of one of length ℓ."),
+       of(Belonging::material, {row("goal-net[].cord-diameter", "m", positive_length,
+                                    FIELD(model.goal_nets[i].cord_diameter), "Diameter d of the cords.")}),
+       {row("goal-net[].cord", FIELD(model.goal_nets[i].cord),
+            "Whether its springs resist stretch only, like a cord.")}});
 }
 
 Rows cloth_rows() {
-  return {
-      fixed(row("cloth[].particles", "", {2, 512}, FIELD(model.cloths[i].particles),
-                "Particles w, h along width (x) and height (y), w·h in all.")),
-      fixed(row("cloth[].size", "m", positive_length, FIELD(model.cloths[i].size),
-                "Width and height of the undeformed cloth.")),
-      START("cloth", cloths[i], "Centre of the cloth at the start.",
-            "Axis through the centre about which the cloth is turned out of the x–y plane; its length does "
-            "not matter."),
-      row("cloth[].particle-mass", "kg", positive_mass, FIELD(model.cloths[i].particle_mass),
-          "Mass m of each particle."),
-      SPRINGS("cloth", "structural", cloths[i].structural, "between axis neighbours"),
-      SPRINGS("cloth", "shear", cloths[i].shear, "along the diagonals of the cells"),
-      SPRINGS("cloth", "bending", cloths[i].bending, "between particles two steps apart along an axis"),
-      fixed(pins("cloth", row("cloth[].pinned", FIELD(model.cloths[i].pinned),
-                              "Particles that never move: edges, corners such as top-left, or local indices "
-                              "i·h + j."))),
-  };
+#define CLOTH_MATERIAL(field) FIELD_IN(model.cloths[i].material, field)
+  return joined(
+      {{fixed(row("cloth[].particles", "", {2, 512}, FIELD(model.cloths[i].particles),
+                  "Particles w, h along width (x) and height (y), w·h in all.")),
+        fixed(row("cloth[].size", "m", positive_length, FIELD(model.cloths[i].size),
+                  "Width and height of the undeformed cloth.")),
+        START("cloth", cloths[i], "Centre of the cloth at the start.",
+              "Axis through the centre about which the cloth is turned out of the x–y plane; its length does "
+              "not matter.")},
+       of(Belonging::explicit_springs,
+          {row("cloth[].particle-mass", "kg", positive_mass, FIELD(model.cloths[i].particle_mass),
+               "Mass m of each particle."),
+           SPRINGS("cloth", "structural", cloths[i].structural, "between axis neighbours"),
+           SPRINGS("cloth", "shear", cloths[i].shear, "along the diagonals of the cells"),
+           SPRINGS("cloth", "bending", cloths[i].bending,
+                   "between particles two steps apart along an axis")}),
+       MATERIAL_ROWS("cloth", CLOTH_MATERIAL, "Density ρ, from which m = ρ·thickness·area/(w·h).",
+                     "Young's modulus E of the sheet, whose Poisson's ratio is 1/3, along width and height."),
+       of(Belonging::material, {row("cloth[].thickness", "m", positive_length,
+                                    FIELD(model.cloths[i].thickness), "Thickness of the sheet.")}),
+       {fixed(
+           pins("cloth", row("cloth[].pinned", FIELD(model.cloths[i].pinned),
+                             "Particles that never move: edges, corners such as top-left, or local indices "
+                             "i·h + j.")))}});
+}
+
+/// Cells of a file, which take the place of layers when the scene is read: no scene has the key.
+Parameter cell_file() {
+  Parameter p;
+  p.path = "voxels[].file";
+  p.type = ParameterType::text;
+  p.live = false;
+  p.when_absent = "none: the cells are here";
+  p.meaning =
+      "Cells from a .npy file, relative to the scene's: an array of whole numbers by x, y and z, 0 for "
+      "empty, "
+      "which `palette` names, { 1 = \"muscle\" }. Instead of `layers`.";
+  p.read = [](const Parameter&, const Scene&, std::size_t) { return std::optional<Value>(); };
+  p.write = [](const Parameter&, Scene&, std::size_t, const Value&) {};
+  return p;
+}
+
+Rows voxel_rows() {
+#define VOXEL_MATERIAL(field) FIELD(model.voxels[i].material.field)
+  return joined(
+      {{unless_empty("it has none", "voxels[].name", FIELD(model.voxels[i].name),
+                     "Name of the body, which no other of its kind has."),
+        fixed(row("voxels[].size", "m", positive_length, FIELD(model.voxels[i].size), "Edge of a cell.")),
+        START("voxels", voxels[i], "Centre of the layers at the start, empty cells among them.",
+              "Rotation axis through the centre; its length does not matter."),
+        unless_empty("all cells are of `material`", "voxels[].palette", FIELD(model.voxels[i].palette),
+                     "Which [[material]] cells of a character are of.")},
+       MATERIAL_ROWS("voxels", VOXEL_MATERIAL, "Density ρ of all cells.",
+                     "Young's modulus E of all cells along an axis, from which k = E·s/7.3125."),
+       {fixed(row(
+            "voxels[].layers", FIELD(model.voxels[i].layers),
+            "Cells, a character each: layers upwards (y), rows from back to front (z), from left to right "
+            "(x); '.', '0' and ' ' are empty.")),
+        cell_file(),
+        fixed(word<piece_choices>("voxels[].pieces", FIELD(model.voxels[i].pieces),
+                                  "What becomes of cells that share no face with the others: the scene is "
+                                  "refused, the largest piece is kept, or all are.")),
+        fixed(pins("voxels", row("voxels[].pinned", FIELD(model.voxels[i].pinned),
+                                 "Particles that never move: faces, corners such as left-top-front, or local "
+                                 "indices.")))}});
 }
 
 Rows ball_rows() {
@@ -162,8 +249,20 @@ Rows launcher_rows() {
 
 }  // namespace
 
+std::vector<Parameter> material_parameters() {
+  return {
+      unless_empty("no body can use it", "material[].name", FIELD(model.materials[i].name),
+                   "Name by which bodies use it."),
+      row("material[].density", "kg/m³", positive_mass, FIELD(model.materials[i].density), "Density ρ."),
+      row("material[].youngs-modulus", "Pa", {0.0, stiffest, true}, FIELD(model.materials[i].youngs_modulus),
+          "Young's modulus E."),
+      row("material[].damping-ratio", "", {0.0, 1e6}, FIELD(model.materials[i].damping_ratio),
+          "Damping ratio ζ."),
+  };
+}
+
 std::vector<Parameter> body_parameters() {
-  return joined({cube_rows(), net_rows(), cloth_rows(), ball_rows(), launcher_rows()});
+  return joined({cube_rows(), voxel_rows(), net_rows(), cloth_rows(), ball_rows(), launcher_rows()});
 }
 
 }  // namespace aspic

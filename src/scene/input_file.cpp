@@ -171,7 +171,7 @@ void InputReader::add_named(const toml::node& node, const std::string& name,
       if (row.pins) bodies.push_back(body);
       if (row.pins && name.starts_with(body + ".")) {
         const PinnedSettings wanted = {{name.substr(body.size() + 1)}, {}};
-        const auto found = pinned_particles(*row.pins, wanted, row.lattice(run_.settings, i));
+        const auto found = row.named(*row.pins, run_.settings, i, wanted);
         if (!found) return fail(node.source(), fmt::format("{}: {}", body, found.error().what));
         for (std::size_t local = 0; local < found->size(); ++local)
           if ((*found)[local]) particles.push_back(static_cast<std::uint32_t>(first + local));

@@ -75,6 +75,59 @@ std::optional<Value> pinned_in(std::string_view text) {
   return Value(pinned);
 }
 
+/// Takes a text in quotation marks, without escapes, from the front.
+std::optional<std::string> take_quoted(std::string_view& text) {
+  const std::size_t end = text.find('"', 1);
+  if (!text.starts_with('"') || end == std::string_view::npos) return std::nullopt;
+  auto word = word_in(text.substr(0, end + 1));
+  text.remove_prefix(end + 1);
+  return word;
+}
+
+/// Takes what a list goes on with, or its end; nothing: it is neither.
+std::optional<bool> take_end(std::string_view& text, char end) {
+  if (text.starts_with(", ")) return text.remove_prefix(2), false;
+  if (text.starts_with(end)) return text.remove_prefix(1), true;
+  return std::nullopt;
+}
+
+std::optional<Value> layers_in(std::string_view text) {
+  CellLayers layers;
+  if (!text.starts_with("[[")) return std::nullopt;
+  text.remove_prefix(1);
+  for (std::optional<bool> last = false; !*last;) {
+    if (!text.starts_with('[')) return std::nullopt;
+    text.remove_prefix(1);
+    layers.emplace_back();
+    for (std::optional<bool> end = false; !*end;) {
+      const auto row = take_quoted(text);
+      if (!row || !(end = take_end(text, ']'))) return std::nullopt;
+      layers.back().push_back(*row);
+    }
+    if (!(last = take_end(text, ']'))) return std::nullopt;
+  }
+  return text.empty() ? std::optional<Value>(layers) : std::nullopt;
+}
+
+std::optional<Value> palette_in(std::string_view text) {
+  CellPalette palette;
+  if (text == "{}") return Value(palette);
+  if (!text.starts_with("{ ") || !text.ends_with(" }")) return std::nullopt;
+  text = text.substr(2, text.size() - 4);
+  while (!text.empty()) {
+    const std::size_t equals = text.find(" = ", 1);
+    if (equals == std::string_view::npos) return std::nullopt;
+    const std::string_view cell = text.substr(0, equals);
+    const auto quoted = word_in(cell);
+    text.remove_prefix(equals + 3);
+    const auto name = take_quoted(text);
+    if (!name) return std::nullopt;
+    palette[quoted ? *quoted : std::string(cell)] = *name;
+    if (text.starts_with(", ")) text.remove_prefix(2);
+  }
+  return Value(palette);
+}
+
 template <class T>
 std::optional<Value> value_or_none(const std::optional<T>& found) {
   return found ? std::optional<Value>(*found) : std::nullopt;
@@ -103,6 +156,10 @@ std::optional<Value> value_in(const Parameter& p, std::string_view text) {
       return value_or_none(numbers_in<double>(text, p.components));
     case ParameterType::pinned:
       return pinned_in(text);
+    case ParameterType::layers:
+      return layers_in(text);
+    case ParameterType::palette:
+      return palette_in(text);
     case ParameterType::words:
       return std::nullopt;  // what is drawn alone has them
   }

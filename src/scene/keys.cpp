@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 
 #include "aspic/parameters.h"
@@ -25,7 +27,21 @@ std::vector<std::string> list_keys(const Scene& scene) {
   return keys;
 }
 
-Result<std::optional<ParameterValue>> value_of(const Scene& scene, const std::string& key) {
+namespace {
+
+/// The key with the index of an element in the place of its name: `material[0].density` of
+/// `material[fat].density`.
+std::string with_index(const Scene& scene, const std::string& key) {
+  const std::size_t open = key.find('['), close = key.find(']');
+  if (open == std::string::npos || close == std::string::npos || close < open) return key;
+  const auto index = element_named(scene, key.substr(0, open), key.substr(open + 1, close - open - 1));
+  return index ? fmt::format("{}[{}]{}", key.substr(0, open), *index, key.substr(close + 1)) : key;
+}
+
+}  // namespace
+
+Result<std::optional<ParameterValue>> value_of(const Scene& scene, const std::string& given) {
+  const std::string key = with_index(scene, given);
   const auto place = place_of(key);
   // place_of() is lenient about what is in the brackets.
   if (place && place->index < index_count(*place->parameter, scene) &&

@@ -159,7 +159,7 @@ void add_body(Scene& scene, const SettingsList& list) {
   list.append(scene.model);
   const std::size_t last = list.size(scene.model) - 1;
   for (const Parameter& p : parameters()) {
-    if (last == 0 || !p.path.starts_with(key_of(list, ""))) continue;
+    if (last == 0 || !p.path.starts_with(key_of(list, "")) || p.key() == "name") continue;
     if (const auto value = p.get(scene, last - 1)) p.set(scene, last, *value);
   }
   place(scene, list);

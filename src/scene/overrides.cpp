@@ -18,11 +18,12 @@ using diagnostics::Position;
 using diagnostics::Problem;
 using reader::Reader;
 
-/// One part of a key: `cube[0]` is name cube, index 0.
+/// One part of a key: `cube[0]` is name cube, index 0; `material[fat]` the material of that name.
 struct Segment {
   std::string name;
   std::optional<std::size_t> index;
   std::uint32_t column = 1;
+  std::string element = {};  ///< a name in the place of the index
 };
 
 std::uint32_t characters(std::string_view text) {
@@ -141,13 +142,16 @@ class Argument {
         const std::string_view digits = part.substr(bracket + 1);
         std::size_t index = 0;
         const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
-        if (error != std::errc() ||
-            std::string_view(stop, static_cast<std::size_t>(digits.data() + digits.size() - stop)) != "]") {
+        const std::string_view rest(stop, static_cast<std::size_t>(digits.data() + digits.size() - stop));
+        if (error == std::errc::invalid_argument && digits.size() > 1 && digits.ends_with(']')) {
+          segment.element = digits.substr(0, digits.size() - 1);
+        } else if (error != std::errc() || rest != "]") {
           fail(segment.column + characters(part.substr(0, bracket)) + 1,
                "an index is a whole number from 0 in brackets, such as cube[0]");
           return false;
+        } else {
+          segment.index = index;
         }
-        segment.index = index;
       }
       if (segment.name.empty()) {
         fail(segment.column, "a part of the key is missing here");
@@ -193,7 +197,8 @@ class Argument {
   std::string parameter_path() const {
     std::string path;
     for (const Segment& segment : segments_)
-      path += fmt::format("{}{}{}", path.empty() ? "" : ".", segment.name, segment.index ? "[]" : "");
+      path += fmt::format("{}{}{}", path.empty() ? "" : ".", segment.name,
+                          segment.index || !segment.element.empty() ? "[]" : "");
     return path;
   }
 
@@ -241,7 +246,7 @@ class Argument {
       const Position at = {source_, 1, segment.column};
       const PathKind kind = path_kind(path);
       if (kind == PathKind::unknown) return fail(segment.column, unknown_key(table, segment.name));
-      if (kind != PathKind::list && segment.index) {
+      if (kind != PathKind::list && (segment.index || !segment.element.empty())) {
         return fail(segment.column,
                     fmt::format("'{}' is not a list of tables and takes no index", segment.name));
       }
@@ -249,8 +254,9 @@ class Argument {
         return fail(segments_[s + 1].column, fmt::format("'{}' is a value and has no keys", segment.name));
       }
       if (kind == PathKind::list) {
-        if (!find_element(segment, s)) return;
-        index = *segment.index;
+        const auto element = find_element(segment, s);
+        if (!element) return;
+        index = *element;
         table = path + "[]";
         if (!last) continue;
         if (const auto* values = value_->as_table())
@@ -265,11 +271,12 @@ class Argument {
     }
   }
 
-  bool find_element(const Segment& segment, std::size_t position) {
+  std::optional<std::size_t> find_element(const Segment& segment, std::size_t position) {
     const auto written = reader_.written().find(segment.name);
-    if (written != reader_.written().end() && written->second.problem) return false;  // reported there
+    if (written != reader_.written().end() && written->second.problem) return {};  // reported there
     const SettingsList& list = *std::ranges::find(settings_lists(), segment.name, &SettingsList::key);
     const std::size_t count = list.size(reader_.scene().model);
+    if (!segment.element.empty()) return named_element(segment);
     if (!segment.index) {
       fail(segment.column, fmt::format("'{}' is a list and needs an index; did you mean '{}'?", segment.name,
                                        key_with_index(position)));
@@ -279,9 +286,24 @@ class Argument {
                                         : fmt::format("the scene has {0} [[{1}]]: {1}[0] to {1}[{2}]", count,
                                                       segment.name, count - 1));
     } else {
-      return true;
+      return segment.index;
     }
-    return false;
+    return {};
+  }
+
+  std::optional<std::size_t> named_element(const Segment& segment) {
+    const auto index = element_named(reader_.scene(), segment.name, segment.element);
+    if (index) return index;
+    const std::vector<std::string> names = element_names(reader_.scene(), segment.name);
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const std::uint32_t at = segment.column + characters(segment.name) + 1;
+    if (known.empty())
+      fail(at, "an index is a whole number from 0 in brackets, such as cube[0]");
+    else
+      fail(at, fmt::format("the scene has no {} of that name; it has {}{}", segment.name,
+                           diagnostics::list_text(known, false),
+                           diagnostics::did_you_mean(diagnostics::nearest(segment.element, known))));
+    return {};
   }
 
   const Keys& keys_;
@@ -293,79 +315,16 @@ class Argument {
   const toml::node* value_ = nullptr;
 };
 
-/// Where the first argument wrote the path or a value below it.
-std::optional<Position> first_override(const Reader& reader, const std::string& path) {
-  std::optional<Position> first;
-  std::string at;
-  for (const std::string& written : reader.written_in(path)) {
-    const Position& key = reader.written().at(written).key;
-    const bool deeper = first && key.source == first->source && written.starts_with(at);
-    if (key.source == 0 || (first && key.source >= first->source && !deeper)) continue;
-    first = key;
-    at = written + ".";
-  }
-  return first;
-}
-
-/// Decides between material and explicit springs where arguments changed what the scene had chosen.
-void resolve_material(Reader& reader, std::size_t cube, bool had_material) {
-  const std::string material_path = path_text("cube[].material", cube);
-  const auto written = reader.written().find(material_path);
-  if (written != reader.written().end())
-    had_material = written->second.key.source == 0;
-  else if (!had_material)
-    return;
-  const std::optional<Position> set_material = first_override(reader, material_path);
-  const std::vector<std::string> keys = reader.explicit_keys(cube);
-  std::optional<Position> set_explicit;
-  for (const std::string& key : keys) {
-    const std::string path = fmt::format("cube[{}].{}", cube, key);
-    if (had_material && reader.written().at(path).key.source == 0) return;  // the file is wrong by itself
-    const auto at = first_override(reader, path);
-    if (at && (!set_explicit || at->source < set_explicit->source)) set_explicit = at;
-  }
-  const bool all_set = std::ranges::all_of(parameters(), [&](const Parameter& p) {
-    const auto place = reader.written().find(path_text(p.path, cube));
-    return p.belonging != Belonging::explicit_springs ||
-           (place != reader.written().end() && place->second.key.source > 0);
-  });
-  if (set_explicit && all_set && !set_material) {
-    reader.scene().model.cubes[cube].material.reset();
-    return reader.forget(material_path);
-  }
-  if (set_material && set_explicit) {
-    reader.fail(std::max(*set_material, *set_explicit,
-                         [](const Position& a, const Position& b) { return a.source < b.source; }),
-                "a cube has either a material or masses and springs: these arguments give both");
-  } else if (set_explicit) {
-    reader.fail(*set_explicit,
-                "this cube is made of a material, which decides its masses and springs; set "
-                "material.density, material.youngs-modulus or material.damping-ratio, or all of "
-                "particle-mass, structural, shear and bending with stiffness and damping");
-  } else if (!set_material) {
-    return;
-  }
-  for (const std::string& key : keys) reader.forget(fmt::format("cube[{}].{}", cube, key));
-}
-
-/// Takes out the scene's geometry where an argument chose a shape that does not have it.
-void resolve_shape(Reader& reader, std::size_t terrain) {
-  const auto shape = reader.written().find(path_text("terrain[].shape", terrain));
-  if (shape == reader.written().end() || shape->second.key.source == 0 || shape->second.problem) return;
-  for (const Parameter& p : parameters()) {
-    if (belongs_to_shape(p, reader.scene().model.terrain[terrain].shape)) continue;
-    const std::string path = path_text(p.path, terrain);
-    if (first_override(reader, path)) continue;
-    p.clear(reader.scene(), terrain);
-    reader.forget(path);
-  }
-}
-
 void apply_to(const Keys& keys, const Arguments& arguments, Reader& reader,
               std::vector<diagnostics::Source>& sources) {
   const auto& cubes = reader.scene().model.cubes;
-  std::vector<bool> had_material;
-  for (const CubeSettings& cube : cubes) had_material.push_back(cube.material.has_value());
+  std::vector<std::pair<BodyInList, bool>> had_material;
+  for (const SettingsList& list : settings_lists()) {
+    const std::string section = fmt::format("{}[]", list.key);
+    for (std::size_t i = 0; i < list.size(reader.scene().model); ++i)
+      if (const auto* const material = material_place(reader.scene().model, section, i))
+        had_material.push_back({{list.key, i}, material->has_value()});
+  }
   for (const std::string& argument : arguments.texts) {
     const auto source = static_cast<std::uint32_t>(sources.size());
     const std::string& origin = arguments.origin;
@@ -373,8 +332,12 @@ void apply_to(const Keys& keys, const Arguments& arguments, Reader& reader,
                        diagnostics::Source::argument});
     Argument(keys, argument, source, reader).apply();
   }
+  for (const auto& [body, had] : had_material) resolve_material(reader, body, had);
+  for (std::size_t v = 0; v < reader.scene().model.voxels.size(); ++v) {
+    reader.prefer_argument(path_text("voxels[].file", v), path_text("voxels[].layers", v));
+    reader.prefer_argument(path_text("voxels[].layers", v), path_text("voxels[].file", v));
+  }
   for (std::size_t c = 0; c < cubes.size(); ++c) {
-    resolve_material(reader, c, had_material[c]);
     reader.prefer_argument(path_text("cube[].particles", c), path_text("cube[].particles-per-edge", c));
     reader.prefer_argument(path_text("cube[].particles-per-edge", c), path_text("cube[].particles", c));
   }

@@ -114,6 +114,8 @@ constexpr ParameterType type_of() {
   if constexpr (is_array_of<int, Field>) return ParameterType::counts;
   if constexpr (is_array_of<double, Field>) return ParameterType::numbers;
   if constexpr (std::is_same_v<Field, PinnedSettings>) return ParameterType::pinned;
+  if constexpr (std::is_same_v<Field, CellLayers>) return ParameterType::layers;
+  if constexpr (std::is_same_v<Field, CellPalette>) return ParameterType::palette;
   return ParameterType::number;
 }
 
@@ -233,6 +235,9 @@ inline constexpr Range damping = {0.0, 1e9};
 }  // namespace aspic::rows
 
 namespace aspic {
+
+/// Rows of the table of materials that have names.
+std::vector<Parameter> material_parameters();
 
 /// Rows of the tables that describe bodies, kind by kind as in body_rows().
 std::vector<Parameter> body_parameters();

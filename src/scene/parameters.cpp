@@ -144,15 +144,40 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index) 
     case Belonging::motion:
       return scene.model.terrain[index].motion.has_value();
     case Belonging::explicit_springs:
-      return !scene.model.cubes[index].material.has_value();
+      return !made_of(scene.model, parameter.section(), index);
     case Belonging::material:
-      return scene.model.cubes[index].material.has_value();
+      return made_of(scene.model, parameter.section(), index);
+    case Belonging::material_numbers:
+    case Belonging::material_name: {
+      const MaterialSettings* const material = made_of(scene.model, parameter.section(), index);
+      return material && material->name.empty() == (parameter.belonging == Belonging::material_numbers);
+    }
     case Belonging::equal_edges:
       return !scene.model.cubes[index].particles.has_value();
     case Belonging::box:
       return scene.model.cubes[index].particles.has_value();
   }
   return false;
+}
+
+std::optional<MaterialSettings>* material_place(ModelSettings& settings, std::string_view section,
+                                                std::size_t index) {
+  if (section == "cube[]") return &settings.cubes[index].material;
+  if (section == "cloth[]") return &settings.cloths[index].material;
+  if (section == "goal-net[]") return &settings.goal_nets[index].material;
+  return nullptr;
+}
+
+const MaterialSettings* made_of(const ModelSettings& settings, std::string_view section, std::size_t index) {
+  const auto pointer = [](const std::optional<MaterialSettings>& material) {
+    return material ? &*material : nullptr;
+  };
+  if (section == "cube[]") return pointer(settings.cubes[index].material);
+  if (section == "cloth[]") return pointer(settings.cloths[index].material);
+  if (section == "goal-net[]") return pointer(settings.goal_nets[index].material);
+  if (section == "voxels[]" && settings.voxels[index].palette.empty())
+    return &settings.voxels[index].material;
+  return nullptr;
 }
 
 bool belongs_to_shape(const Parameter& parameter, TerrainShape shape) {
@@ -162,6 +187,32 @@ bool belongs_to_shape(const Parameter& parameter, TerrainShape shape) {
 std::size_t index_count(const Parameter& parameter, const Scene& scene) {
   const SettingsList* list = list_of(parameter.path);
   return list ? list->size(scene.model) : 1;
+}
+
+namespace {
+
+/// The name of each element of a list, empty where it has none; no element where the list has no names.
+std::vector<std::string> names_of(const Scene& scene, std::string_view list) {
+  std::vector<std::string> names;
+  const Parameter* const p = find_parameter(fmt::format("{}[].name", list));
+  for (std::size_t i = 0; p && i < index_count(*p, scene); ++i)
+    names.push_back(std::get<std::string>(p->get(scene, i).value_or(Value(std::string()))));
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> element_names(const Scene& scene, std::string_view list) {
+  std::vector<std::string> names = names_of(scene, list);
+  std::erase(names, "");
+  return names;
+}
+
+std::optional<std::size_t> element_named(const Scene& scene, std::string_view list, std::string_view name) {
+  const std::vector<std::string> names = names_of(scene, list);
+  const auto found = std::ranges::find(names, name);
+  if (name.empty() || found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
 }
 
 std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
@@ -216,6 +267,10 @@ std::string allowed_text(const Parameter& p) {
     case ParameterType::pinned:
       return fmt::format("an array of {}s ({}), corners ({}) and local indices 0 … {}", p.pins->side,
                          diagnostics::list_text(p.words, false), p.pins->corner, p.pins->last_index);
+    case ParameterType::layers:
+      return "an array of layers, each an array of rows, which are strings of cells";
+    case ParameterType::palette:
+      return "a table of materials' names by cell, such as { 1 = \"muscle\" }";
   }
   return "";
 }
@@ -232,7 +287,9 @@ std::string default_text(const Parameter& p) {
   if (!p.when_absent.empty()) return std::string(p.when_absent);
   Scene scene;
   for (const SettingsList& list : settings_lists()) list.append(scene.model);
-  if (p.belonging == Belonging::material) scene.model.cubes[0].material.emplace();
+  if (auto* const place = material_place(scene.model, p.section(), 0);
+      place && p.belonging != Belonging::explicit_springs)
+    place->emplace();
   if (p.belonging == Belonging::motion) scene.model.terrain[0].motion.emplace();
   return toml_value(*p.get(scene, 0));
 }

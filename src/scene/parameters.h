@@ -28,7 +28,9 @@ enum class ParameterType {
   vector,   ///< Vec3; the range holds for each component
   counts,   ///< std::vector<int>, Parameter::components of them; the range holds for each
   numbers,  ///< std::vector<double>, Parameter::components of them; the range holds for each
-  pinned    ///< PinnedSettings: names of sides and corners, local indices
+  pinned,   ///< PinnedSettings: names of sides and corners, local indices
+  layers,   ///< CellLayers
+  palette   ///< CellPalette
 };
 
 /// A parameter's value, in the alternative its type names.
@@ -47,8 +49,19 @@ struct Range {
 
 /// When a key has a meaning. Geometry belongs to the shapes that have the key (terrain_shapes), the keys of a
 /// motion to terrain that has one; keys of explicit springs and of a material exclude each other by what the
-/// cube is made of, and those of equal edges and of a box by how many particles are along its edges.
-enum class Belonging { always, geometry, motion, explicit_springs, material, equal_edges, box };
+/// body is made of, a material's numbers and its name by whether it is one of [[material]], and those of
+/// equal edges and of a box by how many particles are along its edges.
+enum class Belonging {
+  always,
+  geometry,
+  motion,
+  explicit_springs,
+  material,
+  material_numbers,
+  material_name,
+  equal_edges,
+  box
+};
 
 /// One key.
 struct Parameter {
@@ -115,8 +128,21 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index);
 /// Whether terrain of a shape has this key (always true outside `terrain`).
 bool belongs_to_shape(const Parameter& parameter, TerrainShape shape);
 
+/// Where the bodies of a section, `cube[]`, have the material that takes the place of masses and springs;
+/// nullptr: they have none.
+std::optional<MaterialSettings>* material_place(ModelSettings& settings, std::string_view section,
+                                                std::size_t index);
+/// The material that an element of a section is made of; nullptr: it has springs of its own, or a palette, or
+/// the section is of no bodies.
+const MaterialSettings* made_of(const ModelSettings& settings, std::string_view section, std::size_t index);
+
 /// How many elements the scene has in the list of an indexed path, 1 for other paths.
 std::size_t index_count(const Parameter& parameter, const Scene& scene);
+
+/// Names of the elements of a list whose table has the key `name`, without those that are empty.
+std::vector<std::string> element_names(const Scene& scene, std::string_view list);
+/// The first element of that name.
+std::optional<std::size_t> element_named(const Scene& scene, std::string_view list, std::string_view name);
 
 /// A value that is not allowed.
 struct Complaint {

@@ -73,6 +73,24 @@ bool take_pinned(PinnedSettings& pinned, const toml::node& element) {
   return index || take_word(pinned.names, element);
 }
 
+bool take_layer(CellLayers& layers, const toml::node& element) {
+  const toml::array* const rows = element.as_array();
+  if (!rows) return false;
+  auto& layer = layers.emplace_back();
+  for (const toml::node& row : *rows)
+    if (!take_word(layer, row)) return false;
+  return true;
+}
+
+Converted palette_of(const Parameter& p, const toml::table& table) {
+  CellPalette palette;
+  for (const auto& [cell, name] : table) {
+    if (!name.is_string()) return wrong_type(p, name);
+    palette[std::string(cell.str())] = name.as_string()->get();
+  }
+  return Value(std::move(palette));
+}
+
 Converted converted(const Parameter& p, const toml::node& node) {
   const toml::array* array = node.as_array();
   switch (p.type) {
@@ -94,6 +112,12 @@ Converted converted(const Parameter& p, const toml::node& node) {
       break;
     case ParameterType::pinned:
       if (array) return gathered(p, *array, PinnedSettings(), take_pinned);
+      break;
+    case ParameterType::layers:
+      if (array) return gathered(p, *array, CellLayers(), take_layer);
+      break;
+    case ParameterType::palette:
+      if (const auto* const table = node.as_table()) return palette_of(p, *table);
       break;
     case ParameterType::vector:
     case ParameterType::counts:
@@ -157,18 +181,40 @@ void Reader::read_member(std::string_view path, std::size_t index, std::string_v
     read_parameter(*find_parameter(child), value, index, written);
   } else if (kind == PathKind::list) {
     read_list(value, child, written, source);
+  } else if (value.is_string() && path_kind(child + ".name") == PathKind::parameter) {
+    // A material's name in the place of its table.
+    read_member(child, index, "name", at, value, source);
   } else if (!value.is_table()) {
     const std::vector<std::string_view> keys = child_keys(child);
     written.problem = {written.value,
                        fmt::format("'{}' must be a table with the keys {}, not {}", key,
                                    diagnostics::list_text(keys, false), document::kind_text(value))};
   } else {
-    // Even an empty `material = {}` makes the cube one of a material.
-    if (child == "cube[].material" && !scene_.model.cubes[index].material)
-      scene_.model.cubes[index].material.emplace();
+    // Even an empty `material = {}` makes the body one of a material.
+    auto* const material = child.ends_with(".material") ? material_place(scene_.model, path, index) : nullptr;
+    if (material && !*material) material->emplace();
     if (child == "terrain[].motion" && !scene_.model.terrain[index].motion)
       scene_.model.terrain[index].motion.emplace();
     read_table(*value.as_table(), child, index, source);
+  }
+}
+
+/// Elements of a list whose names are the keys of one table.
+void Reader::read_named(const toml::table& table, std::string_view path, std::uint32_t source) {
+  const SettingsList& list = *std::ranges::find(settings_lists(), path, &SettingsList::key);
+  for (const auto& [name, element] : table) {
+    const std::size_t index = list.size(scene_.model);
+    const std::string section = fmt::format("{}[]", path);
+    list.append(scene_.model);
+    const Position at = position_of(name.source(), source);
+    Written& here = written_[path_text(section, index)] = {at, position_of(element.source(), source), {}, {}};
+    find_parameter(section + ".name")->set(scene_, index, Value(std::string(name.str())));
+    if (const auto* const keys = element.as_table())
+      read_table(*keys, section, index, source);
+    else
+      here.problem = {here.value, fmt::format("'{}.{}' must be a table with the keys {}, not {}", path,
+                                              name.str(), diagnostics::list_text(child_keys(section), false),
+                                              document::kind_text(element))};
   }
 }
 
@@ -180,6 +226,7 @@ void Reader::read_list(const toml::node& value, std::string_view path, Written& 
                    fmt::format("'{}' must be a list of tables: write [[{}]], not {}", path, path,
                                document::kind_text(culprit))};
   };
+  if (path == "material" && value.is_table()) return read_named(*value.as_table(), path, source);
   if (!value.is_array()) {
     written.problem = wrong(value);
     list.append(scene_.model);  // something was meant: the scene is not empty
@@ -217,6 +264,7 @@ void Reader::read_parameter(const Parameter& p, const toml::node& node, std::siz
                          complaint->message};
     } else {
       p.set(scene_, index, value);
+      if (p.path == "voxels[].file") cell_files_[path_text(p.path, index)] = std::get<std::string>(value);
     }
   }
   // What was written wrong was written: a shape that has no such key complains about that too.
@@ -246,16 +294,9 @@ std::vector<std::string> Reader::written_in(const std::string& path) const {
   return paths;
 }
 
-std::vector<std::string> Reader::explicit_keys(std::size_t cube) const {
-  std::vector<std::string> keys;
-  for (const std::string_view key : child_keys("cube[]")) {
-    const std::string path = fmt::format("cube[].{}", key);
-    const bool decided_by_material = std::ranges::any_of(parameters(), [&](const Parameter& p) {
-      return p.belonging == Belonging::explicit_springs && (p.path == path || p.path.starts_with(path + "."));
-    });
-    if (decided_by_material && written_.contains(path_text(path, cube))) keys.emplace_back(key);
-  }
-  return keys;
+void Reader::blame(const std::string& path, std::string message) {
+  Written& written = written_.at(path);
+  written.problem = {written.value, std::move(message)};
 }
 
 bool Reader::has_problem(const std::string& path) const {
@@ -282,40 +323,6 @@ Problem Reader::located(const SceneComplaint& complaint) const {
   }
   if (has_text_ || complaint.path.empty()) return {{}, complaint.message};
   return {{}, fmt::format("{}: {}", complaint.path, complaint.message)};
-}
-
-std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes) const {
-  std::vector<Problem> problems = problems_;
-  for (const auto& [path, written] : written_) {
-    if (written.problem) problems.push_back(*written.problem);
-  }
-  if (has_text_ && !written_.contains("schema")) {
-    problems.push_back(
-        {{}, fmt::format("'schema' is missing; start the file with the line schema = {}", scene_schema)});
-  }
-  for (std::size_t c = 0; c < scene_.model.cubes.size(); ++c) {
-    const auto edges = written_.find(path_text("cube[].particles-per-edge", c));
-    const auto box = written_.find(path_text("cube[].particles", c));
-    if (edges != written_.end() && box != written_.end())
-      problems.push_back(
-          {std::max(edges->second.key, box->second.key),
-           "a cube has either 'particles-per-edge' or, as a box, 'particles', not both; leave out "
-           "one of them"});
-    const auto material = written_.find(path_text("cube[].material", c));
-    if (material == written_.end()) continue;
-    const std::vector<std::string> others = explicit_keys(c);
-    if (others.empty()) continue;
-    const std::vector<std::string_view> names(others.begin(), others.end());
-    problems.push_back(
-        {material->second.key, fmt::format("a cube has either 'material' or the masses and springs it "
-                                           "decides, not both; leave out 'material' or {}",
-                                           diagnostics::list_text(names, false))});
-  }
-  for (const SceneComplaint& complaint : check_scene(scene_, memory_bytes)) {
-    if ((complaint.of_key || !has_problem(complaint.path)) && !has_problem(complaint.other))
-      problems.push_back(located(complaint));
-  }
-  return problems;
 }
 
 }  // namespace aspic::reader

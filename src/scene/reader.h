@@ -53,24 +53,36 @@ class Reader {
   /// `path`.
   void prefer_argument(const std::string& path, const std::string& other);
 
-  /// Keys of a cube that were written although a material would decide them.
-  std::vector<std::string> explicit_keys(std::size_t cube) const;
+  /// Keys of an element of a section, `cube[]`, that were written although a material would decide them.
+  std::vector<std::string> explicit_keys(std::string_view section, std::size_t index) const;
+
+  /// Files that cells come from, by path of the key.
+  const std::map<std::string, std::string>& cell_files() const { return cell_files_; }
+  /// What is wrong with the value of a path that was written.
+  void blame(const std::string& path, std::string message);
 
   /// All problems: those of reading, and those of the scene (check_scene), each where its key was written. A
   /// complaint about a key that could not be read, or that depends on one, is left out.
   std::vector<Problem> problems(std::optional<std::uint64_t> memory_bytes) const;
 
  private:
+  void read_named(const toml::table& table, std::string_view path, std::uint32_t source);
   void read_list(const toml::node& value, std::string_view path, Written& written, std::uint32_t source);
   void read_parameter(const Parameter& p, const toml::node& value, std::size_t index, Written& written);
   bool has_problem(const std::string& path) const;
+  void check_materials(std::vector<Problem>& problems) const;
   Problem located(const SceneComplaint& complaint) const;
 
   Scene scene_;
   bool has_text_;
   std::map<std::string, Written> written_;  // by path with indices
-  std::vector<Problem> problems_;           // of keys that are not in the table, and of arguments
+  std::map<std::string, std::string> cell_files_;
+  std::vector<Problem> problems_;  // of keys that are not in the table, and of arguments
 };
+
+/// Puts the cells of files in the place of layers. Paths are relative to the scene's file, or of arguments to
+/// the working directory.
+void read_cell_files(Reader& reader, const std::vector<diagnostics::Source>& sources);
 
 }  // namespace aspic::reader
 
@@ -88,6 +100,16 @@ struct Arguments {
 /// the scene's material only if all seven are given. A new terrain shape takes the place of geometry keys it
 /// does not have.
 void apply(const Arguments& arguments, reader::Reader& reader, std::vector<diagnostics::Source>& sources);
+/// An element of a list that may have a material.
+struct BodyInList {
+  std::string_view list;
+  std::size_t index;
+};
+/// Decides between material and explicit springs where arguments changed what the scene had chosen.
+void resolve_material(reader::Reader& reader, const BodyInList& body, bool had_material);
+/// Takes out the scene's geometry where an argument chose a shape that does not have it.
+void resolve_shape(reader::Reader& reader, std::size_t terrain);
+
 /// The same for keys of the table `view`, without its name.
 void apply_view(const Arguments& arguments, reader::Reader& reader,
                 std::vector<diagnostics::Source>& sources);

@@ -43,6 +43,12 @@ std::string condition(const Parameter& p) {
     case Belonging::explicit_springs:
       return " Not together with `material`.";
     case Belonging::material:
+      return " With `material`.";
+    case Belonging::material_name:
+      return p.section() == "voxels[]" ? " Not together with `palette`; short: `material = \"…\"`."
+                                       : " Short: `material = \"…\"`.";
+    case Belonging::material_numbers:
+      if (p.section() == "voxels[]") return " Not together with `palette`.";
       return " Instead of `particle-mass`, `structural`, `shear` and `bending`.";
     case Belonging::equal_edges:
       return " Not together with `particles`.";

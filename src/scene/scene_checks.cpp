@@ -9,6 +9,8 @@
 #include "model/bodies.h"
 #include "model/cube.h"
 #include "model/integrator.h"
+#include "model/material.h"
+#include "model/voxels.h"
 #include "scene/diagnostics.h"
 #include "scene/follow.h"
 
@@ -70,6 +72,7 @@ void check_pinned(const Scene& scene, Complaints& complaints) {
       const Parameter& size = *size_of(scene, row, b);
       if (check_value(size, *size.get(scene, b))) continue;  // a body of no size has no last index
       const auto last = static_cast<std::int64_t>(row.counts(scene.model, b).particles) - 1;
+      if (last < 0) continue;  // complained about elsewhere
       const PinnedSettings& pinned = *row.pinned(scene.model, b);
       for (std::size_t i = 0; i < pinned.indices.size(); ++i) {
         const std::int64_t index = pinned.indices[i];
@@ -84,8 +87,60 @@ void check_pinned(const Scene& scene, Complaints& complaints) {
   }
 }
 
+/// Names that two elements of a list have.
+void check_names(const Scene& scene, Complaints& complaints) {
+  for (const SettingsList& list : settings_lists()) {
+    const Parameter* const p = find_parameter(fmt::format("{}[].name", list.key));
+    for (std::size_t i = 0; p && i < list.size(scene.model); ++i) {
+      const auto name = p->get(scene, i);
+      const auto first = name ? element_named(scene, list.key, std::get<std::string>(*name)) : std::nullopt;
+      if (first.value_or(i) == i) continue;
+      complaints.push_back({{fmt::format("'{}' \"{}\" is taken: another [[{}]] has it", key_text(*p),
+                                         excerpt(std::get<std::string>(*name), 40), list.key)},
+                            path_text(p->path, i),
+                            path_text(p->path, *first)});
+    }
+  }
+}
+
+/// Materials that the scene does not have, and bodies of cells that cannot be made.
+void check_materials(const Scene& scene, Complaints& complaints) {
+  for (const BodyRow& row : body_rows()) {
+    const std::string section = fmt::format("{}[]", row.list.key);
+    for (std::size_t i = 0; i < row.list.size(scene.model); ++i) {
+      if (row.list.key == "voxels") continue;
+      const MaterialSettings* const made = made_of(scene.model, section, i);
+      if (!made || made->name.empty() || find_material(scene.model, made->name)) continue;
+      complaints.push_back(
+          {{fmt::format("'{}.material' names {}", row.list.key, unknown_material(scene.model, made->name))},
+           path_text(section + ".material.name", i)});
+    }
+  }
+  for (std::size_t i = 0; i < scene.model.voxels.size(); ++i) {
+    const auto fault = fault_of(scene.model, scene.model.voxels[i]);
+    if (!fault) continue;
+    const std::string key = fault->key == "material" ? "material.name" : fault->key;
+    complaints.push_back({{fmt::format("'voxels.{}': {}", fault->key, fault->message), fault->element},
+                          fmt::format("voxels[{}].{}", i, key),
+                          path_text("voxels[].file", i)});
+  }
+}
+
+/// Cells of a cloth that is of a material, which must be nearly square.
+void check_sheets(const Scene& scene, Complaints& complaints) {
+  for (std::size_t i = 0; i < scene.model.cloths.size(); ++i) {
+    ClothSettings cloth = scene.model.cloths[i];
+    if (!cloth.material) continue;
+    const auto springs = sheet_springs(cloth);
+    if (!springs)
+      complaints.push_back({{fmt::format("'cloth.{}'", springs.error().what)},
+                            path_text("cloth[].particles", i),
+                            path_text("cloth[].material", i)});
+  }
+}
+
 void check_particles(const Scene& scene, Complaints& complaints) {
-  constexpr std::uint64_t most = 512ull * 512 * 512;
+  constexpr std::uint64_t most = most_lattice_points;
   for (std::size_t c = 0; c < scene.model.cubes.size(); ++c) {
     const auto& particles = scene.model.cubes[c].particles;
     const std::uint64_t count = box_counts(scene.model.cubes[c].lattice()).particles;
@@ -201,10 +256,13 @@ std::vector<SceneComplaint> check_scene(const Scene& scene, std::optional<std::u
   check_geometry(scene, complaints);
   check_pinned(scene, complaints);
   check_bodies(scene, complaints);
+  check_names(scene, complaints);
+  check_materials(scene, complaints);
   check_contact(scene, complaints);
   if (!legal) return complaints;
   // These compute with the numbers.
   check_particles(scene, complaints);
+  check_sheets(scene, complaints);
   check_boxes(scene, complaints);
   check_camera(scene, complaints);
   check_followed(scene, complaints);

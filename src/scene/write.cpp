@@ -47,6 +47,17 @@ struct Writer {
     for (const T& element : x) all.push_back((*this)(element));
     return fmt::format("[{}]", fmt::join(all, ", "));
   }
+  std::string operator()(const CellPalette& x) const {
+    std::vector<std::string> all;
+    for (const auto& [cell, name] : x) {
+      const bool bare = !cell.empty() && std::ranges::all_of(cell, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+               c == '-';
+      });
+      all.push_back(fmt::format("{} = {}", bare ? cell : string_text(cell), string_text(name)));
+    }
+    return all.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(all, ", "));
+  }
   std::string operator()(const PinnedSettings& x) const {
     std::vector<std::string> all;
     for (const std::string& name : x.names) all.push_back(string_text(name));
@@ -54,6 +65,23 @@ struct Writer {
     return fmt::format("[{}]", fmt::join(all, ", "));
   }
 };
+
+/// Layers on a line each, or several small ones on one.
+std::string layers_text(const CellLayers& layers) {
+  const std::string one_line = Writer()(layers);
+  if (one_line.size() < 80) return one_line;
+  std::string text = "[";
+  for (const auto& layer : layers) text += fmt::format("\n  {},", Writer()(layer));
+  return text + "\n]";
+}
+
+/// An inline table; of a material that has a name, the name alone.
+std::string inline_text(std::string_view name, std::string_view keys) {
+  constexpr std::string_view named = "name = ";
+  if (name == "material" && keys.starts_with(named))
+    return fmt::format("{} = {}", name, keys.substr(named.size()));
+  return fmt::format("{} = {{ {} }}", name, keys);
+}
 
 /// A line of the file: its text, and the comment behind it.
 struct Line {
@@ -70,7 +98,7 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
   std::vector<Line> lines;
   std::vector<Inline> open;
   const auto close = [&] {
-    for (const Inline& t : open) lines.push_back({fmt::format("{} = {{ {} }}", t.name, t.text), t.comment});
+    for (const Inline& t : open) lines.push_back({inline_text(t.name, t.text), t.comment});
     open.clear();
   };
   for (const Parameter& p : parameters()) {
@@ -87,7 +115,8 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
       }
       continue;
     }
-    const std::string text = toml_value(*value);
+    const std::string text =
+        p.type == ParameterType::layers ? layers_text(std::get<CellLayers>(*value)) : toml_value(*value);
     if (dot == std::string_view::npos) {
       std::string comment(p.unit);
       if (p.type == ParameterType::word) comment = fmt::format("{}", fmt::join(p.words, " | "));

@@ -494,7 +494,7 @@ TEST_F(Panels, NewBodiesStandBesideOthersAndAboveTheGroundAndAreSaved) {
   const auto saved = load_scene(path);
   ASSERT_TRUE(saved.ok()) << saved.error().message();
   EXPECT_EQ(effect_between(*saved, app().scene.scene()), Effect::none);
-  for (int i = 0; i < 10; ++i) press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  for (std::size_t i = 0; i < 2 * body_rows().size(); ++i) press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   EXPECT_EQ(settings().cubes.size(), 1u);
   for (const BodyRow& row : body_rows().subspan(1)) EXPECT_EQ(row.list.size(settings()), 0u) << row.list.key;
 }

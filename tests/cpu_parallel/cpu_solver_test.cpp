@@ -102,6 +102,35 @@ TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInABodyWithEmptyCells) {
   expect_equal(test::with_cells(settings, test::lattice_of("xxx,x.x,xxx;xxx,...,x..")), steps(12, 200), 2);
 }
 
+// Slices of a row each, of several rows, and of parts of rows; materials that change within a slice; threads
+// whose parts begin anywhere. 40 cells a row are more than two slices.
+TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInBodiesOfCells) {
+  ModelSettings settings = test::low_cube(2, GetParam(), ContactModel::coulomb);
+  settings.cubes.clear();
+  settings.materials = {{16.0, 33000.0, 0.4, "jelly"}, {30.0, 9000.0, 0.7, "fat"}};
+  CellLayers layers(7, std::vector<std::string>(40, std::string(9, '1')));
+  for (std::size_t y = 0; y < layers.size(); ++y) {
+    for (std::size_t z = 0; z < layers[y].size(); ++z) {
+      for (std::size_t x = 0; x < layers[y][z].size(); ++x) {
+        char& cell = layers[y][z][x];
+        if (x + z > y + 35 || (x * x + y * y + z) % 11 == 0) cell = '.';
+        if (cell != '.' && (x * y + z) % 5 == 0) cell = '2';
+      }
+    }
+  }
+  VoxelsSettings& voxels = settings.voxels.emplace_back();
+  voxels.size = 0.2;
+  voxels.position = {0.0, 0.8, 0.0};
+  voxels.velocity = {0.5, -1.0, 0.2};
+  voxels.layers = layers;
+  voxels.palette = {{"1", "jelly"}, {"2", "fat"}};
+  voxels.pieces = Pieces::all;
+  settings.simulation.timestep = row_of(GetParam()).traits.long_steps ? 0.01 : 0.0005;
+  const Model model = test::build(settings);
+  ASSERT_GT(model.particle_count(), 2500u);
+  for (const unsigned threads : {1u, 4u}) expect_equal(model, steps(3, 60), threads);
+}
+
 TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsOnTerrainThatMovesSideways) {
   for (const ContactModel contact : both_models) {
     SCOPED_TRACE(name_of(contact));

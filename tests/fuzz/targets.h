@@ -49,6 +49,8 @@ extern const Target configuration_target;
 extern const Target state_csv_target;
 /// The window's kept state.
 extern const Target kept_state_target;
+/// An array of numpy.
+extern const Target npy_target;
 /// Shader files with includes (parts separated by a zero byte), and a driver's compile log.
 extern const Target shader_target;
 

@@ -234,11 +234,12 @@ TEST(Bodies, PinTheSidesAndCornersTheyName) {
   }
 }
 
-TEST(SettingsLists, AreTerrainAndTheBodies) {
+TEST(SettingsLists, AreTerrainMaterialsAndTheBodies) {
   std::set<std::string_view> keys;
   for (const SettingsList& list : settings_lists()) keys.insert(list.key);
-  EXPECT_EQ(keys.size(), body_rows().size() + 1);
+  EXPECT_EQ(keys.size(), body_rows().size() + 2);
   EXPECT_TRUE(keys.contains("terrain"));
+  EXPECT_TRUE(keys.contains("material"));
   for (const BodyRow& row : body_rows()) EXPECT_TRUE(keys.contains(row.list.key)) << row.list.key;
 }
 

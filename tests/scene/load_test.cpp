@@ -202,6 +202,8 @@ std::pair<std::uint32_t, std::uint32_t> expected_sizes(const std::string& scene)
   if (scene == "course-2018") return {1357, 8};
   if (scene == "flag") return {36 * 24, 0};
   if (scene == "curtain") return {41 * 33, 2};
+  if (scene == "bridge") return {690, 2};
+  if (scene == "swing") return {25 * 16, 0};
   if (scene == "ball-pit") return {0, 1000};
   if (scene == "cube-and-balls") return {1000, 3};
   return {1000, 0};
@@ -226,8 +228,8 @@ TEST(Builtin, ScenesLoadAndBuild) {
   }
   EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
                                           "cube-torus", "cube-hole", "elevator", "goal-net", "penalty",
-                                          "flag", "curtain", "ball-pit", "cube-and-balls", "large-cube",
-                                          "course-2021-plane", "course-2021-tilted-plane",
+                                          "flag", "curtain", "bridge", "swing", "ball-pit", "cube-and-balls",
+                                          "large-cube", "course-2021-plane", "course-2021-tilted-plane",
                                           "course-2021-sphere", "course-2021-bowl", "course-2018"));
 }
 
@@ -235,7 +237,8 @@ TEST(Builtin, ScenesOfAGroupFollowOneAnother) {
   std::vector<std::string> groups;
   for (const BuiltinScene& builtin : list_builtin_scenes())
     if (groups.empty() || groups.back() != builtin.group) groups.emplace_back(builtin.group);
-  EXPECT_THAT(groups, testing::ElementsAre("Cubes", "Nets and cloth", "Balls", "Large", "University course"));
+  EXPECT_THAT(groups, testing::ElementsAre("Cubes", "Nets and cloth", "Cells of materials", "Balls", "Large",
+                                           "University course"));
 }
 
 // Limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.

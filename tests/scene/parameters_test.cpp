@@ -89,6 +89,11 @@ std::vector<Wrong> wrong_types(const Parameter& p) {
     case ParameterType::pinned:
       wrong = {{"\"top\""}, {"1"}, {"[1.0]", 1}, {"[\"top\", true]", 8}};
       break;
+    case ParameterType::layers:
+      wrong = {{"\"11\""}, {"1"}, {"[\"11\"]", 1}, {"[[\"11\"], [1]]", 9}};
+      break;
+    case ParameterType::palette:
+      return {{"\"muscle\""}, {"1"}, {"[\"muscle\"]"}, {"{ a = 1 }", 6}, {"1979-05-27"}};
   }
   wrong.insert(wrong.end(), never.begin(), never.end());
   return wrong;
@@ -110,6 +115,17 @@ std::vector<Wrong> out_of_range(const Parameter& p) {
   switch (p.type) {
     case ParameterType::boolean:
     case ParameterType::text:
+      break;
+    case ParameterType::layers:
+      wrong = {{"[]"},
+               {"[[\"11\"], [\"11\", \"1.\"]]", 9},
+               {"[[\"11\"], [\"1\"]]", 9},
+               {"[[\"1\\t\"]]", 1},
+               {"[[\"..\"]]"},
+               {"[[\"1.1\"]]"}};
+      break;
+    case ParameterType::palette:
+      wrong = {{"{ 10 = \"muscle\" }"}, {"{ a = \"no-such-material\" }"}};
       break;
     case ParameterType::integer:
       wrong = {{std::to_string(static_cast<std::int64_t>(r.min) - 1)},

@@ -77,6 +77,7 @@ TEST(CheckScene, NamesThePathOfEveryWrongValue) {
           if (belongs_to_shape(p, row.value)) scene.model.terrain[index].shape = row.value;
         }
       }
+      if (p.belonging == Belonging::material) material_place(scene.model, p.section(), index)->emplace();
       p.set(scene, index, wrong);
       const auto complaints = check_scene(scene);
       ASSERT_EQ(complaints.size(), 1u) << p.path;
@@ -123,7 +124,7 @@ TEST(CheckScene, FindsASceneInWhichNothingMoves) {
   const auto complaints = check_scene(scene);
   ASSERT_THAT(paths_of(complaints), ElementsAre(""));
   EXPECT_THAT(complaints[0].message,
-              HasSubstr("add a [[cube]], [[goal-net]], [[cloth]], [[ball]] or [[launcher]]"));
+              HasSubstr("add a [[cube]], [[voxels]], [[goal-net]], [[cloth]], [[ball]] or [[launcher]]"));
 }
 
 TEST(CheckScene, BlamesTheLargestBodyForTheMemory) {
@@ -183,7 +184,8 @@ TEST(CheckScene, NamesWhatCanBeFollowed) {
   const auto complaints = check_scene(scene);
   ASSERT_THAT(paths_of(complaints), ElementsAre("view.follow"));
   EXPECT_THAT(complaints[0].message, HasSubstr("cube[7]"));
-  EXPECT_THAT(complaints[0].message, HasSubstr("cube[0], goal-net[0], cloth[0], ball[0] … ball[10]"));
+  EXPECT_THAT(complaints[0].message,
+              HasSubstr("cube[0], voxels[0], goal-net[0], cloth[0], ball[0] … ball[10]"));
   scene.view.follow = "ball[10]";
   EXPECT_TRUE(check_scene(scene).empty());
 }

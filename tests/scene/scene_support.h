@@ -69,6 +69,7 @@ inline KeyFile file_with(const Parameter& p, const std::string& value, const std
     const bool list = section.ends_with("[]");
     add(list ? fmt::format("[[{}]]", section.substr(0, section.size() - 2)) : fmt::format("[{}]", section));
     if (p.belonging == Belonging::geometry) add(fmt::format("shape = \"{}\"", shape_with(p)));
+    if (p.belonging == Belonging::material) add("material = {}");
     add_key();
   }
   return file;
@@ -123,6 +124,8 @@ inline bool same_bits(const Value& a, const Value& b) {
   if (const auto* x = std::get_if<bool>(&a)) return *x == std::get<bool>(b);
   if (const auto* x = std::get_if<std::int64_t>(&a)) return *x == std::get<std::int64_t>(b);
   if (const auto* x = std::get_if<std::string>(&a)) return *x == std::get<std::string>(b);
+  if (const auto* x = std::get_if<CellLayers>(&a)) return *x == std::get<CellLayers>(b);
+  if (const auto* x = std::get_if<CellPalette>(&a)) return *x == std::get<CellPalette>(b);
   return std::get<std::vector<std::string>>(a) == std::get<std::vector<std::string>>(b);
 }
 

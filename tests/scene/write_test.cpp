@@ -52,6 +52,7 @@ Value random_value(const Parameter& p, std::mt19937_64& random) {
       return number();
     case ParameterType::text:
       if (p.path == "view.follow") return std::string("cube[0]");  // there is always one
+      if (p.key() == "name" && !p.section().empty()) return fmt::format("name \"{}\"", random());
       return std::string("a \"name\" with \\ and \t and \x7f and é");
     case ParameterType::word: {
       const auto words = p.words;
@@ -73,6 +74,10 @@ Value random_value(const Parameter& p, std::mt19937_64& random) {
       std::ranges::generate(numbers, number);
       return numbers;
     }
+    case ParameterType::layers:
+      return chance() ? CellLayers{{"1.a", "111"}} : CellLayers{{"##", "#."}, {" 0", "1."}, {"11", "11"}};
+    case ParameterType::palette:
+      return CellPalette{};  // of no material
     case ParameterType::pinned:
       return PinnedSettings{{std::string(p.words.back()), test::corner_of(*p.pins)}, {0, 2, 3}};
   }
@@ -86,6 +91,7 @@ TEST(Write, RoundTripsRandomScenes) {
     scene.model.terrain.resize(static_cast<std::size_t>(trial % 4));
     scene.model.cubes.resize(1 + static_cast<std::size_t>(trial % 3));
     if (trial % 2 == 0) scene.model.cubes[0].material.emplace();
+    scene.model.materials.resize(static_cast<std::size_t>(trial % 3));
     for (std::size_t kind = 1; kind < body_rows().size(); ++kind) {
       const SettingsList& list = body_rows()[kind].list;
       while (list.size(scene.model) < static_cast<std::size_t>(trial) % (kind + 1)) list.append(scene.model);
@@ -119,6 +125,21 @@ TEST(Write, LeavesOutWhatIsAbsent) {
   EXPECT_THAT(text, Not(HasSubstr("\nmass")));
   EXPECT_THAT(text, HasSubstr("\n# restitution: that of [contact]\n"));
   EXPECT_THAT(text, Not(HasSubstr("material =")));
+}
+
+TEST(Write, NamesMaterialsAndShowsCellsLayerByLayer) {
+  const std::string long_row(60, '1');
+  const Scene scene = test::parsed(fmt::format(
+      "schema = 1\n[material]\nfat = {{ density = 900.0 }}\nbone = {{ youngs-modulus = 1e6 }}\n[[cube]]\n"
+      "material = \"fat\"\n[[voxels]]\npalette = {{ 1 = \"bone\", \"#\" = \"fat\" }}\n"
+      "layers = [[\"{0}\"], [\"{0}\"]]\n",
+      long_row));
+  const std::string text = to_toml(scene);
+  EXPECT_THAT(text, HasSubstr("\n[[material]]\nname = \"fat\"\n"));
+  EXPECT_THAT(text, HasSubstr("\nmaterial = \"fat\"\n"));
+  EXPECT_THAT(text, HasSubstr("\npalette = { \"#\" = \"fat\", 1 = \"bone\" }\n"));
+  EXPECT_THAT(text, HasSubstr(fmt::format("\nlayers = [\n  [\"{0}\"],\n  [\"{0}\"],\n]\n", long_row)));
+  expect_round_trip(scene);
 }
 
 TEST(Write, LooksLikeAFileOfAPerson) {

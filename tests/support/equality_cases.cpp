@@ -15,8 +15,8 @@
 namespace aspic::test {
 namespace {
 
-constexpr std::array all_bodies = {Bodies::cube,           Bodies::listed_cube, Bodies::cloth,
-                                   Bodies::cube_and_balls, Bodies::all,         Bodies::box};
+constexpr std::array all_bodies = {Bodies::cube, Bodies::listed_cube, Bodies::cloth, Bodies::cube_and_balls,
+                                   Bodies::all,  Bodies::box,         Bodies::voxels};
 constexpr std::array all_grounds = {Ground::bouncing, Ground::holding, Ground::moving};
 /// Particles that an invocation of the lattice kernel takes: as software likes it, and as hardware does.
 constexpr std::array<std::uint32_t, 2> all_runs = {0, 1};
@@ -33,6 +33,8 @@ std::string_view word_of(Bodies bodies) {
       return "a cube and balls";
     case Bodies::box:
       return "a box";
+    case Bodies::voxels:
+      return "a body of cells";
     case Bodies::all:
       break;
   }
@@ -91,6 +93,19 @@ void add_balls(ModelSettings& settings, const Vec3& position) {
   launcher.ball = {0.2, 0.5};
 }
 
+/// Two materials, a hole, a hinge and a piece apart.
+void add_voxels(ModelSettings& settings, const Vec3& position) {
+  settings.materials = {{16.0, 33000.0, 0.4, "jelly"}, {30.0, 9000.0, 0.7, "fat"}};
+  VoxelsSettings& voxels = settings.voxels.emplace_back();
+  voxels.size = 0.7;
+  voxels.position = position;
+  voxels.rotation = {{1.0, 0.3, 0.7}, 25.0};
+  voxels.velocity = {1.0, -2.0, 0.5};
+  voxels.layers = {{"11221", "1.2.1", "11221"}, {"2....", ".1..2", "....2"}};
+  voxels.palette = {{"1", "jelly"}, {"2", "fat"}};
+  voxels.pieces = Pieces::all;
+}
+
 void add_bodies(ModelSettings& settings, Bodies bodies, const Vec3& at) {
   switch (bodies) {
     case Bodies::cube:
@@ -110,6 +125,9 @@ void add_bodies(ModelSettings& settings, Bodies bodies, const Vec3& at) {
       settings.cubes.push_back(cube(2, 3.5, at));
       settings.cubes[0].particles = {3, 7, 5};
       break;
+    case Bodies::voxels:
+      add_voxels(settings, at);
+      break;
     case Bodies::all:
       settings.cubes = {cube(4, 1.6, at), cube(3, 1.0, at + Vec3{0.2, 1.6, 0.0})};
       add_net(settings, at + Vec3{0.0, 0.2, -1.9});
@@ -121,6 +139,7 @@ void add_bodies(ModelSettings& settings, Bodies bodies, const Vec3& at) {
 
 void move(ModelSettings& settings, const Vec3& by) {
   for (auto& each : settings.cubes) each.position = each.position + by;
+  for (auto& each : settings.voxels) each.position = each.position + by;
   for (auto& each : settings.goal_nets) each.position = each.position + by;
   for (auto& each : settings.cloths) each.position = each.position + by;
   for (auto& each : settings.balls) each.position = each.position + by;
@@ -156,10 +175,12 @@ const std::vector<EqualityCase>& covering_cases() {
       return works_with(force_paths()[row[3]].path, all_integrators[row[0]]);
     };
     std::vector<EqualityCase> result;
-    // Those with the bodies that were there before boxes come first, as the file of known hashes has them.
-    std::array without_boxes = sizes;
+    // Those with the bodies that were there before others come first, as the file of known hashes has them.
+    std::array without_boxes = sizes, without_voxels = sizes;
     without_boxes[4] = static_cast<std::size_t>(Bodies::box);
-    for (const CoveringRow& row : cover_pairs(sizes, allowed, cover_pairs(without_boxes, allowed))) {
+    without_voxels[4] = static_cast<std::size_t>(Bodies::voxels);
+    const auto before = cover_pairs(without_voxels, allowed, cover_pairs(without_boxes, allowed));
+    for (const CoveringRow& row : cover_pairs(sizes, allowed, before)) {
       result.push_back({all_integrators[row[0]], terrain_shapes[row[1]].value,
                         contact_models[row[2] % contacts].value, force_paths()[row[3]].path,
                         all_bodies[row[4]], all_grounds[row[2] / contacts], all_runs[row[5]]});

@@ -124,6 +124,11 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Model& m) { m.terrain[0].friction *= 1 - 1e-4; }},
         Planted{"contact/pull", "gravity less than the weak pull",
                 [](Model& m) { m.simulation.gravity.y = -9.7; }},
+        Planted{"voxels/cantilever", "stiffness 2 % less",
+                [](Model& m) {
+                  for (SpringClass& s : m.spring_classes) s.stiffness *= 0.98;
+                }},
+        Planted{"voxels/free-fall/midpoint", "a body force", [](Model& m) { m.simulation.gravity.x = 1e-9; }},
         Planted{"rest/symplectic-euler", "no ground", [](Model& m) { m.terrain.clear(); }},
         Planted{"implicit/dense", "tolerance 1e-4", [](Model& m) { m.simulation.implicit.tolerance = 1e-4; }},
         Planted{"implicit/bounded", "Runge–Kutta instead",
