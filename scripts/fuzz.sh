@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 seconds=${1:-10}
 [ $# -gt 0 ] && shift
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || { echo "SECONDS must be a whole number above 0, not '$seconds'." >&2; exit 2; }
-all=(scene set view checkpoint inputs configuration state-csv kept-state shader)
+all=(scene set view checkpoint inputs configuration state-csv kept-state npy shader mesh-obj mesh-stl mesh-ply)
 chosen=("${@:-${all[@]}}")
 for target in "${chosen[@]}"; do
   [[ " ${all[*]} " == *" $target "* ]] || { echo "No fuzzer is called '$target'; there are: ${all[*]}." >&2; exit 2; }

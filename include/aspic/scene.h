@@ -155,6 +155,7 @@ struct LoadOptions {
   std::optional<std::uint64_t> memory_bytes = {};
   /// What messages put before a KEY=VALUE argument: the option that it was given by; empty: nothing.
   std::string origin = {};
+  std::vector<std::string>* notes = nullptr;  ///< gets what was repaired in meshes; null: nobody is told
 };
 
 /// Reads a scene from TOML text. Messages name `file_name`. `overrides` are KEY=VALUE arguments, later ones

@@ -194,6 +194,7 @@ struct VoxelsSettings {
   MaterialSettings material = {};  ///< of every cell where there is no palette
   Pieces pieces = Pieces::refuse;  ///< of several
   PinnedSettings pinned = {};      ///< none by default
+  std::string skin = {};  ///< a mesh drawn in place of the cells' faces, as scenes keep it; empty: none
   friend BodyRow row_of(const VoxelsSettings&);
 };
 

@@ -69,6 +69,10 @@ KINDS: dict[str, Kind] = {
     "model.rest-length": Kind(("spring",), "m", "rest length of the springs"),
     "model.skin": Kind(("quad", "corner"), "", "particles at the corners of the surfaces"),
     "model.skin-body": Kind(("quad",), "", "body of a square of the surfaces, by number"),
+    "model.mesh-corners": Kind(("vertex", "cell-corner"), "", "particles at the corners of the cell of a mesh's vertex"),
+    "model.mesh-weights": Kind(("vertex", "cell-corner"), "", "their weights in the vertex's position"),
+    "model.mesh-body": Kind(("vertex",), "", "body of a mesh's vertex, by number"),
+    "model.mesh-triangles": Kind(("triangle", "triangle-corner"), "", "vertices of the meshes' triangles"),
     "model.ball-radius": Kind(("ball",), "m", "radii of the balls"),
     "model.ball-mass": Kind(("ball",), "kg", "masses of the balls"),
 }

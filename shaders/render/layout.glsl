@@ -23,6 +23,10 @@
 #define ATTRIBUTE_TURN 4    // of balls: unit quaternion
 #define ATTRIBUTE_COLOUR 5  // of balls: linear light
 
+// Storage of the kernels of meshes that follow particles, besides those of shared/layout.glsl.
+#define BINDING_SKIN_CORNERS 1  // uvec4[2 · vertices]: particles at the corners of a vertex's cell
+#define BINDING_SKIN_PLACES 2   // vec4[vertices]: where in the cell
+
 // Uniforms outside blocks.
 #define LOCATION_COUNT 0
 #define LOCATION_CLASS_BITS 1      // of incident words, in the quantity kernel

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -15,6 +16,7 @@
 #include "model/voxels.h"
 #include "run/capacity.h"
 #include "scene/import_configuration.h"
+#include "scene/import_mesh.h"
 
 namespace aspic::cli {
 namespace {
@@ -80,7 +82,40 @@ Status execute(const SceneShowOptions& options) {
   return print_data(to_toml(scene));
 }
 
+namespace {
+
+/// The largest step of one digit, 1, 2 or 5, below half the largest stable one.
+double usual_timestep(const StabilityLimit& limit, double otherwise) {
+  if (!limit.step || !(*limit.step > 0.0)) return otherwise;
+  const double most = 0.5 * *limit.step, power = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= most) return digit * power;
+  return power;
+}
+
+Status import_as_body(const SceneImportOptions& options) {
+  MeshImport import = {options.file, options.cells, options.height};
+  if (options.up) import.up = *options.up;
+  if (options.pieces) import.pieces = *options.pieces;
+  ASPIC_TRY(auto imported, import_mesh(import));
+  for (const std::string& note : imported.notes)
+    print_message(fmt::format("{}: {}.", printable_line(options.file), note));
+  ASPIC_TRY(const auto model, build_model(imported.scene.model));
+  double& timestep = imported.scene.model.simulation.timestep;
+  timestep =
+      usual_timestep(stability_limit(model, model.simulation.integrator, StabilityEffort::quick), timestep);
+  return print_data(imported_toml(imported, options.file));
+}
+
+}  // namespace
+
 Status execute(const SceneImportOptions& options) {
+  if (names_mesh(options.file)) return import_as_body(options);
+  if (options.cells || options.height || options.up || options.pieces)
+    return fail(ErrorCode::usage,
+                "--cells, --height, --up and --pieces are for meshes, and {} is none: those end in .obj, "
+                ".stl or .ply.",
+                printable_line(options.file));
   ASPIC_TRY(const auto text, read_file(options.file));
   ASPIC_TRY(const auto imported, import_configuration(text, options.file));
   for (const std::string& note : imported.notes) print_warning(note);
@@ -89,7 +124,11 @@ Status execute(const SceneImportOptions& options) {
 
 Status execute(const SceneCheckOptions& options) {
   const InterruptGuard interrupt;
-  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides, by_set));
+  std::vector<std::string> notes;
+  LoadOptions how = by_set;
+  how.notes = &notes;
+  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides, how));
+  for (const std::string& note : notes) print_message(note + ".");
   ASPIC_TRY(const auto model, build_model(scene.model));
   const ModelCounts counts = count(model);
   const Integrator own = model.simulation.integrator;

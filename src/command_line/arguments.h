@@ -128,7 +128,10 @@ struct SceneCheckOptions {
   bool json = false;
 };
 struct SceneImportOptions {
-  std::string file;  ///< Configuration.txt of the 2018 framework
+  std::string file;              ///< a mesh, or Configuration.txt of the 2018 framework
+  std::optional<int> cells;      ///< the next four are for meshes: along the longest edge
+  std::optional<double> height;  ///< [m]
+  std::optional<std::string> up, pieces;
 };
 struct InfoOptions {
   bool json = false;

@@ -19,7 +19,7 @@ namespace {
 
 /// Repeats and particles per edge that are read at all.
 constexpr WholeRange any_steps = {0, most_steps}, intervals = {1, most_steps}, few = {1, 1024},
-                     repeats = {1, 1000000}, edges = {2, 1000000};
+                     repeats = {1, 1000000}, edges = {2, 1000000}, mesh_cells = {1, 256};
 
 template <class T>
 T element_of(const T&);
@@ -263,9 +263,17 @@ std::array<CLI::App*, 4> add_scene(CLI::App& app, SceneListOptions& list, SceneS
   add(k, "scene", "SCENE", check.scene, "scene file or built-in name")->required();
   add_json(k, check.json, "as JSON");
   add_overrides(k, check.overrides);
-  CLI::App* i = add_command(*scene, "import", "Print Configuration.txt of the 2018 framework as a scene",
-                            scene_import_examples);
-  add(i, "file", "FILE", import.file, "the file to read")->required();
+  CLI::App* i =
+      add_command(*scene, "import", "Print a mesh, or Configuration.txt of the 2018 framework, as a scene",
+                  scene_import_examples);
+  add(i, "file", "FILE", import.file,
+      "mesh (.obj, .stl, .ply, or rabbit, which is built in), or Configuration.txt")
+      ->required();
+  add(i, "--cells", "N", import.cells, "cells along the longest edge of a mesh; default 24", mesh_cells);
+  add(i, "--height", "M", import.height, "metres that a mesh is scaled to; default: its numbers are metres");
+  add(i, "--up", "AXIS", import.up, "axis of a mesh that points upwards, y or z; default y");
+  add(i, "--pieces", "WORD", import.pieces,
+      "what becomes of parts that share no face: largest (default), all or refuse");
   return {c, s, k, i};
 }
 

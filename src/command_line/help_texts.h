@@ -38,10 +38,12 @@ inline constexpr const char* scene_check_examples = R"(Examples:
 
 Exit code 3 if the scene is rejected; every mistake in it is reported.)";
 
-inline constexpr const char* scene_import_examples = R"(Example:
+inline constexpr const char* scene_import_examples = R"(Examples:
+  aspic scene import bunny.obj --cells 32 > bunny.toml
+  aspic scene import part.stl --up z --height 0.2 > part.toml
   aspic scene import Configuration.txt > net.toml
 
-What cannot be carried over is said in comments of the scene.)";
+What was repaired in a mesh is said; docs/meshes.md. What cannot be carried over is said in comments of the scene.)";
 
 inline constexpr const char* info_examples = R"(Examples:
   aspic info

@@ -203,6 +203,29 @@ Status write_springs(ZipWriter& zip, const Model& model) {
   return write_array(zip, "model.rest-length", {s}, rest);
 }
 
+/// Meshes that follow particles: their vertices are Σ weight · position over the corners.
+Status write_meshes(ZipWriter& zip, const Model& model) {
+  std::vector<std::uint32_t> corners, triangles;
+  std::vector<std::int32_t> body;
+  std::vector<double> weights;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodySkin& mesh = model.bodies[b].skin;
+    const auto first = static_cast<std::uint32_t>(body.size());
+    body.insert(body.end(), mesh.corners.size(), static_cast<std::int32_t>(b));
+    for (const auto& of_vertex : mesh.corners)
+      corners.insert(corners.end(), of_vertex.begin(), of_vertex.end());
+    for (const SkinVertex& v : mesh.binding.vertices)
+      for (const double weight : corner_weights(v.at)) weights.push_back(weight);
+    for (const Triangle& t : mesh.triangles)
+      for (const std::uint32_t vertex : t) triangles.push_back(first + vertex);
+  }
+  if (body.empty()) return {};
+  ASPIC_CHECK(write_array(zip, "model.mesh-corners", {body.size(), 8}, corners));
+  ASPIC_CHECK(write_array(zip, "model.mesh-weights", {body.size(), 8}, weights));
+  ASPIC_CHECK(write_array(zip, "model.mesh-body", {body.size()}, body));
+  return write_array(zip, "model.mesh-triangles", {triangles.size() / 3, 3}, triangles);
+}
+
 Status write_model(ZipWriter& zip, const Model& model) {
   const std::uint64_t n = model.particle_count(), b = model.ball_count();
   std::vector<std::uint8_t> pinned;
@@ -227,6 +250,7 @@ Status write_model(ZipWriter& zip, const Model& model) {
   ASPIC_CHECK(write_springs(zip, model));
   ASPIC_CHECK(write_array(zip, "model.skin", {skin_body.size(), 4}, corners));
   ASPIC_CHECK(write_array(zip, "model.skin-body", {skin_body.size()}, skin_body));
+  ASPIC_CHECK(write_meshes(zip, model));
   if (b == 0) return {};
   ASPIC_CHECK(write_array(zip, "model.ball-radius", {b}, radius));
   return write_array(zip, "model.ball-mass", {b}, mass);

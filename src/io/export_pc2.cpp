@@ -37,8 +37,13 @@ struct Shape {
     std::string name;
     std::vector<std::vector<std::uint32_t>> faces, edges;  // of vertices
   };
-  std::vector<std::uint32_t> particles;  // by vertex
-  std::vector<Vec3> around_ball;         // vertices of a ball of radius 1, after those of particles
+  struct Vertex {
+    std::array<std::uint32_t, 8> corners =
+        {};  // particles; only the first one counts of a particle's own vertex
+    std::array<double, 8> weights = {1.0};
+  };
+  std::vector<Vertex> vertices;   // without those of balls
+  std::vector<Vec3> around_ball;  // vertices of a ball of radius 1, after those
   std::vector<Group> groups;
 };
 
@@ -54,16 +59,28 @@ class ShapeMaker {
  private:
   std::uint32_t vertex_of(std::uint32_t particle) {
     if (vertex_[particle] == no_vertex) {
-      vertex_[particle] = static_cast<std::uint32_t>(shape_.particles.size());
-      shape_.particles.push_back(particle);
+      vertex_[particle] = static_cast<std::uint32_t>(shape_.vertices.size());
+      shape_.vertices.push_back({{particle}});
     }
     return vertex_[particle];
   }
-  /// The surface; of a body without one its springs.
+  void add_mesh(const BodySkin& mesh, Shape::Group& group) {
+    std::vector<std::uint32_t> vertex(mesh.corners.size(), no_vertex);
+    for (const Triangle& triangle : mesh.triangles) {
+      for (const std::uint32_t corner : triangle) {
+        if (vertex[corner] != no_vertex) continue;
+        vertex[corner] = static_cast<std::uint32_t>(shape_.vertices.size());
+        shape_.vertices.push_back({mesh.corners[corner], corner_weights(mesh.binding.vertices[corner].at)});
+      }
+      group.faces.push_back({vertex[triangle[0]], vertex[triangle[1]], vertex[triangle[2]]});
+    }
+  }
+  /// The mesh or the surface; of a body without either its springs.
   void add_body(const Model& model, std::size_t number) {
     const Body& body = model.bodies[number];
     Shape::Group group = {fmt::format("body-{}", number), {}, {}};
-    for (const Quad& quad : surface_of(body).quads) {
+    add_mesh(body.skin, group);
+    for (const Quad& quad : body.skin.empty() ? surface_of(body).quads : std::vector<Quad>()) {
       std::vector<std::uint32_t> face;
       for (const std::uint32_t corner : quad) face.push_back(vertex_of(corner));
       group.faces.push_back(std::move(face));
@@ -115,7 +132,7 @@ class ShapeMaker {
   void add_ball(std::uint32_t number) {
     Shape::Group group = {fmt::format("ball-{}", number), ball_faces_, {}};
     const auto first =
-        static_cast<std::uint32_t>(shape_.particles.size() + number * shape_.around_ball.size());
+        static_cast<std::uint32_t>(shape_.vertices.size() + number * shape_.around_ball.size());
     for (auto& face : group.faces)
       for (std::uint32_t& corner : face) corner += first;
     shape_.groups.push_back(std::move(group));
@@ -132,7 +149,13 @@ std::vector<float> places_of(const Shape& shape, const Sample& sample) {
   const auto add = [&](const Vec3& x) {
     for (const double component : {x.x, x.y, x.z}) places.push_back(static_cast<float>(component));
   };
-  for (const std::uint32_t particle : shape.particles) add(sample.state.position[particle]);
+  const std::vector<Vec3>& positions = sample.state.position;
+  for (const auto& [corners, weights] : shape.vertices) {
+    Vec3 place = weights[0] * positions[corners[0]];
+    for (std::size_t n = 1; n < 8; ++n)
+      if (weights[n] != 0.0) place = place + weights[n] * positions[corners[n]];
+    add(place);
+  }
   for (std::uint32_t b = 0; b < sample.model.ball_count(); ++b)
     for (const Vec3& e : shape.around_ball)
       add(sample.state.ball_position[b] + sample.model.balls[b].radius * e);

@@ -18,6 +18,7 @@
 #include "model/lattice.h"
 #include "model/particle_data.h"
 #include "model/quad_mesh.h"
+#include "model/skin.h"
 
 namespace aspic {
 
@@ -62,6 +63,15 @@ struct Rod {
   double radius = 0.0;  ///< [m]
 };
 
+/// A mesh that is drawn in place of a body's surface, and follows its particles: skin_positions().
+struct BodySkin {
+  SkinBinding binding;
+  std::vector<std::array<std::uint32_t, 8>> corners;  ///< particles, global indices, by vertex
+  std::vector<Triangle> triangles;
+
+  bool empty() const { return triangles.empty(); }
+};
+
 /// A run of consecutive particles that was made as one body. Solvers need only the particles and springs;
 /// the rest is for analysis, pictures and files.
 struct Body {
@@ -74,6 +84,7 @@ struct Body {
   SurfaceStyle style = SurfaceStyle::flesh;
   QuadMesh listed_surface;  ///< none for cords, and none where it follows from the lattice
   double size = 0.0;        ///< of flesh: its largest extent [m], for how deep light reaches
+  BodySkin skin;            ///< none for most
   std::vector<Rod> rods;    ///< what it hangs on
   bool footballs = false;   ///< balls are drawn as footballs where it is
 

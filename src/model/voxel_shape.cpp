@@ -7,6 +7,7 @@
 
 #include "base/printable.h"
 #include "model/material.h"
+#include "model/skin_text.h"
 #include "model/voxels.h"
 
 namespace aspic {
@@ -218,6 +219,9 @@ std::variant<VoxelShape, CellFault> shape_of(const VoxelsSettings& voxels) {
 std::optional<CellFault> fault_of(const ModelSettings& settings, const VoxelsSettings& voxels) {
   auto found = shape_of(voxels);
   if (auto* const wrong = std::get_if<CellFault>(&found)) return std::move(*wrong);
+  if (!voxels.skin.empty() && !mesh_of_skin_text(voxels.skin))
+    return CellFault{
+        "skin", "it is no mesh: it is made from one by the program, and was changed since; make it again"};
   if (!voxels.palette.empty()) return check_palette(settings, voxels, std::get<VoxelShape>(found));
   const std::string& name = voxels.material.name;
   if (name.empty() || find_material(settings, name)) return std::nullopt;

@@ -9,6 +9,7 @@
 
 #include "model/bodies.h"
 #include "model/material.h"
+#include "model/skin_text.h"
 #include "model/springs.h"
 #include "model/voxel_springs.h"
 
@@ -52,6 +53,23 @@ LatticePlaces places_of(const VoxelsSettings& voxels, const VoxelShape& shape) {
           {half(0), half(1), half(2)},
           voxels.position,
           {voxels.rotation.axis, voxels.rotation.angle}};
+}
+
+/// The skin that the settings have, bound to the cells.
+BodySkin skin_of(const VoxelsSettings& voxels, const VoxelShape& shape, std::uint32_t first_particle) {
+  BodySkin skin;
+  auto mesh = mesh_of_skin_text(voxels.skin);
+  if (!mesh) return skin;
+  const auto [i, j, k] = shape.offset;
+  for (Vec3& v : mesh->vertices)
+    v = v - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+  skin.binding = bind_skin(shape.lattice, mesh->vertices);
+  std::vector<std::uint32_t> numbers = particle_numbers(shape.lattice);
+  for (std::uint32_t& number : numbers)
+    if (number != no_particle) number += first_particle;
+  skin.corners = skin_corners(skin.binding, shape.lattice, numbers);
+  skin.triangles = std::move(mesh->triangles);
+  return skin;
 }
 
 /// Particles, their masses, velocities and pins.
@@ -113,6 +131,7 @@ Status add_voxels(Model& model, const ModelSettings& settings, const VoxelsSetti
     body.listed_surface = surface_of(*body.lattice, body.first_particle);
   }
   body.class_count = static_cast<std::uint32_t>(model.spring_classes.size()) - body.first_class;
+  if (!voxels.skin.empty()) body.skin = skin_of(voxels, shape, body.first_particle);
   model.bodies.push_back(std::move(body));
   return {};
 }

@@ -38,9 +38,9 @@ void BodyPainter::draw_thickness() const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE);
   glUseProgram(programs.thickness.id());
-  const gl::VertexArray skin = buffers.skin_array(*state.particles);
-  skin.bind();
-  draw_skins(SurfaceStyle::flesh, [](std::size_t) {});
+  const gl::VertexArray skin = buffers.skin_array(*state.particles), own = buffers.shaded_skin_array();
+  draw_skins(SurfaceStyle::flesh,
+             [&](std::size_t body) { (buffers.parts()[body].mesh ? own : skin).bind(); });
   if (section) section->draw(SectionUse::thickness, model, buffers, *state.particles, view.colour);
   glDisable(GL_BLEND);
   targets.thickness.colour.bind(UNIT_THICKNESS);

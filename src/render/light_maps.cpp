@@ -77,7 +77,7 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
   glDisable(GL_CULL_FACE);
-  const gl::VertexArray skin = model.skin_array(*state.particles);
+  const gl::VertexArray skin = model.skin_array(*state.particles), own = model.shaded_skin_array();
   const gl::VertexArray points = model.particle_array(*state.particles);
   const gl::VertexArray lines = model.spring_array(*state.particles);
   programs.light_balls.set(LOCATION_RADIUS, 1.0f);
@@ -97,10 +97,12 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
       program->set(LOCATION_LIGHT, light);
     if (draw.solid) {
       glUseProgram(programs.light_surface.id());
-      skin.bind();
       {
         const SkinsCut cut(view.cut);
-        for (const Surface::Part& part : model.parts()) draw_triangles(part);
+        for (const Surface::Part& part : model.parts()) {
+          (part.mesh ? own : skin).bind();
+          draw_triangles(part);
+        }
       }
       model.rods().draw();
     }

@@ -65,6 +65,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   const Surface surface = make_surface(model);
   for (const Status& ok :
        {gl::check_loop("skin", "the faces at one particle", longest(surface.fan_start)),
+        gl::check_loop("skin", "the triangles at one vertex of a mesh", longest(surface.mesh_start)),
         gl::check_loop(
             "bounds", "particles",
             LIGHTS * (std::uint64_t{b.particle_count_} / software::most_bounding_invocations + 1))}) {
@@ -72,7 +73,8 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   }
   b.parts_ = surface.parts;
   b.coarse_parts_ = surface.coarse_parts;
-  b.skin_vertices_ = static_cast<std::uint32_t>(surface.fan_vertex.size());
+  b.mesh_vertices_ = static_cast<std::uint32_t>(surface.mesh_corners.size());
+  b.skin_vertices_ = static_cast<std::uint32_t>(surface.fan_vertex.size()) + b.mesh_vertices_;
   ASPIC_TRY(b.skin_,
             gl::Buffer::create(context, "skin", sizeof(render_layout::SkinVertex) * b.skin_vertices_));
   ASPIC_TRY(b.skin_indices_, gl::Buffer::of(context, "skin indices", surface.indices));
@@ -81,6 +83,10 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   ASPIC_TRY(b.fan_start_, gl::Buffer::of(context, "skin fan starts", surface.fan_start));
   ASPIC_TRY(b.fan_own_, gl::Buffer::of(context, "skin fans' own ends", surface.fan_own));
   ASPIC_TRY(b.fan_, gl::Buffer::of(context, "skin fans", surface.fan));
+  ASPIC_TRY(b.mesh_corners_, gl::Buffer::of(context, "mesh corners", surface.mesh_corners));
+  ASPIC_TRY(b.mesh_places_, gl::Buffer::of(context, "mesh places", surface.mesh_places));
+  ASPIC_TRY(b.mesh_start_, gl::Buffer::of(context, "mesh fan starts", surface.mesh_start));
+  ASPIC_TRY(b.mesh_fan_, gl::Buffer::of(context, "mesh fans", surface.mesh_fan));
 
   double least = 0.0;
   for (const SpringClass& c : model.spring_classes) {
@@ -127,7 +133,29 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
 }
 
 void ModelBuffers::compute_skin(const RenderPrograms& programs, const gl::Buffer& particles) {
-  programs.skin.set(LOCATION_COUNT, skin_vertices_);
+  const std::uint32_t fans = skin_vertices_ - mesh_vertices_;
+  if (fans > 0) compute_fans(programs, particles);
+  if (mesh_vertices_ == 0) return;
+  for (const gl::Program* const program : {&programs.mesh_skin, &programs.mesh_normals}) {
+    program->set(LOCATION_COUNT, mesh_vertices_);
+    program->set(LOCATION_FIRST, fans);
+  }
+  gl::Pass(programs.mesh_skin,
+           {{BINDING_PARTICLES, &particles},
+            {BINDING_SKIN_CORNERS, &mesh_corners_},
+            {BINDING_SKIN_PLACES, &mesh_places_},
+            {BINDING_QUANTITY, &quantity_},
+            {BINDING_SKIN, &skin_}},
+           ReadBy::compute_pass)
+      .dispatch_for(mesh_vertices_);
+  gl::Pass(programs.mesh_normals,
+           {{BINDING_FAN_START, &mesh_start_}, {BINDING_FAN, &mesh_fan_}, {BINDING_SKIN, &skin_}},
+           ReadBy::vertex_draw | ReadBy::read_back)
+      .dispatch_for(mesh_vertices_);
+}
+
+void ModelBuffers::compute_fans(const RenderPrograms& programs, const gl::Buffer& particles) {
+  programs.skin.set(LOCATION_COUNT, skin_vertices_ - mesh_vertices_);
   gl::Pass(programs.skin,
            {{BINDING_PARTICLES, &particles},
             {BINDING_FAN_START, &fan_start_},
@@ -137,7 +165,7 @@ void ModelBuffers::compute_skin(const RenderPrograms& programs, const gl::Buffer
             {BINDING_QUANTITY, &quantity_},
             {BINDING_SKIN, &skin_}},
            ReadBy::vertex_draw | ReadBy::read_back)
-      .dispatch_for(skin_vertices_);
+      .dispatch_for(skin_vertices_ - mesh_vertices_);
 }
 
 void ModelBuffers::compute_quantity(const RenderPrograms& programs, const DeviceState& state) {

@@ -88,7 +88,7 @@ class ModelBuffers {
   /// Typical distance between neighbours [m]; 1 without springs.
   double spacing() const { return spacing_; }
   const gl::Buffer& light_boxes() const { return light_boxes_; }
-  /// SkinVertex each, in the order of Surface::fan_vertex.
+  /// SkinVertex each, in the order of Surface::fan_vertex, then of Surface::mesh_corners.
   const gl::Buffer& skin() const { return skin_; }
   /// 0: there is no skin.
   std::uint32_t skin_vertices() const { return skin_vertices_; }
@@ -96,10 +96,11 @@ class ModelBuffers {
 
  private:
   ModelBuffers() = default;
+  void compute_fans(const RenderPrograms& programs, const gl::Buffer& particles);
   gl::VertexArray array(const gl::Buffer& particles, const gl::Buffer* indices,
                         const gl::Buffer* places = nullptr) const;
 
-  std::uint32_t particle_count_ = 0, skin_vertices_ = 0, class_bits_ = 0;
+  std::uint32_t particle_count_ = 0, skin_vertices_ = 0, mesh_vertices_ = 0, class_bits_ = 0;
   double spacing_ = 1.0;
   std::vector<Surface::Part> parts_, coarse_parts_;
   bool coarse_ = false, lines_ready_ = false;
@@ -107,6 +108,7 @@ class ModelBuffers {
   DeviceMesh rods_;
   std::vector<SpringRun> springs_;
   gl::Buffer skin_, skin_indices_, skin_corners_, fan_vertex_, fan_start_, fan_own_, fan_;
+  gl::Buffer mesh_corners_, mesh_places_, mesh_start_, mesh_fan_;
   gl::Buffer spring_indices_, spring_classes_;
   std::shared_ptr<const SpringBuffers> own_springs_;  // for states that bring none
   gl::Buffer quantity_, extremes_, bounds_, light_boxes_;

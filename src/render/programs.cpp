@@ -14,6 +14,8 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   ASPIC_TRY(p.balls_turn, kernel("render/balls.comp"));
   ASPIC_TRY(p.light_boxes, kernel("render/light_boxes.comp"));
   ASPIC_TRY(p.skin, kernel("render/skin.comp"));
+  ASPIC_TRY(p.mesh_skin, kernel("render/mesh_skin.comp"));
+  ASPIC_TRY(p.mesh_normals, kernel("render/mesh_normals.comp"));
   ASPIC_TRY(p.quantity, kernel("render/quantity.comp"));
   ASPIC_TRY(p.light_surface, drawing({"render/light_map.vert", "render/light_map.frag"}));
   ASPIC_TRY(p.light_particles,

@@ -47,6 +47,8 @@ class Vertices {
       for (const std::uint32_t particle : q) of_group_[particle] = none;
   }
 
+  std::uint32_t count() const { return static_cast<std::uint32_t>(particle_.size()); }
+
   /// Fans in the order of the vertices, a vertex's own quads before those of other groups.
   void write_fans(Surface& surface) const {
     surface.fan_vertex = particle_;
@@ -88,13 +90,60 @@ Surface::Part append(const Triangles& made, Surface& surface) {
   return {first, static_cast<std::uint32_t>(made.particles.size())};
 }
 
+/// Vertices and triangles of a mesh; vertices are counted from `fans` on, which is how many others there are.
+Triangles add_mesh(const BodySkin& skin, std::uint32_t fans, Surface& surface,
+                   std::vector<std::vector<std::uint32_t>>& fan) {
+  const std::uint32_t first = fans + static_cast<std::uint32_t>(surface.mesh_corners.size());
+  surface.mesh_corners.insert(surface.mesh_corners.end(), skin.corners.begin(), skin.corners.end());
+  for (const SkinVertex& v : skin.binding.vertices)
+    surface.mesh_places.push_back(
+        {static_cast<float>(v.at.x), static_cast<float>(v.at.y), static_cast<float>(v.at.z), 0.0f});
+  fan.resize(surface.mesh_corners.size());
+  Triangles made;
+  for (const Triangle& t : skin.triangles) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Vec3& at = skin.binding.vertices[t[corner]].at;
+      const std::size_t nearest = (at.x > 0.5 ? 4u : 0u) + (at.y > 0.5 ? 2u : 0u) + (at.z > 0.5 ? 1u : 0u);
+      made.particles.push_back(skin.corners[t[corner]][nearest]);
+      made.vertices.push_back(first + t[corner]);
+      auto& around = fan[first - fans + t[corner]];
+      around.push_back(first + t[(corner + 1) % 3]);
+      around.push_back(first + t[(corner + 2) % 3]);
+    }
+  }
+  return made;
+}
+
+/// The vertices of fans that a model has: those of its bodies without meshes.
+std::uint32_t fan_vertices(const Model& model) {
+  Vertices vertices(model.particle_count());
+  Triangles passed;
+  for (const Body& body : model.bodies) {
+    if (!body.skin.empty()) continue;
+    surface_of(body).for_each_group([&](const NormalGroup&, std::span<const Quad> quads) {
+      vertices.add(quads, passed);
+      vertices.end_group(quads);
+    });
+  }
+  return vertices.count();
+}
+
 }  // namespace
 
 Surface make_surface(const Model& model) {
   Surface surface;
   Vertices vertices(model.particle_count());
+  const bool meshes = std::ranges::any_of(model.bodies, [](const Body& body) { return !body.skin.empty(); });
+  const std::uint32_t fans = meshes ? fan_vertices(model) : 0;
+  std::vector<std::vector<std::uint32_t>> mesh_fan;
   for (const Body& body : model.bodies) {
     Triangles fine, coarse;
+    if (!body.skin.empty()) {
+      surface.parts.push_back(append(add_mesh(body.skin, fans, surface, mesh_fan), surface));
+      surface.parts.back().mesh = true;
+      surface.coarse_parts.push_back(surface.parts.back());
+      continue;
+    }
     const QuadMesh mesh = surface_of(body);
     mesh.for_each_group([&](const NormalGroup& group, std::span<const Quad> quads) {
       vertices.add(quads, fine);
@@ -106,6 +155,11 @@ Surface make_surface(const Model& model) {
     surface.coarse_parts.push_back(is_fine(mesh) ? append(coarse, surface) : surface.parts.back());
   }
   vertices.write_fans(surface);
+  surface.mesh_start.push_back(0);
+  for (const auto& around : mesh_fan) {
+    surface.mesh_fan.insert(surface.mesh_fan.end(), around.begin(), around.end());
+    surface.mesh_start.push_back(static_cast<std::uint32_t>(surface.mesh_fan.size() / 2));
+  }
   return surface;
 }
 

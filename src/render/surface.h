@@ -1,5 +1,6 @@
 #pragma once
 // The skin of a model's bodies: which particles it joins, and what normals are summed from.
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace aspic {
 struct Surface {
   struct Part {
     std::uint32_t first_index = 0, index_count = 0;  ///< of one body, into `indices`
+    bool mesh = false;  ///< of a mesh: `indices` are the nearest particles, about where its vertices are
   };
 
   std::vector<std::uint32_t> indices;  ///< three per triangle: particles
@@ -24,6 +26,13 @@ struct Surface {
   /// fan_start[i] … fan_start[i + 1] − 1, those of its own group before fan_own[i], of each of which `fan`
   /// holds the vertex's next and previous neighbour (two words: particles).
   std::vector<std::uint32_t> fan_vertex, fan_start, fan_own, fan;
+
+  /// The vertices of meshes, which come after those of fans: the particles at the corners of the cell of
+  /// each, its place in the cell, and its triangles mesh_start[i] … mesh_start[i + 1] − 1, of each of which
+  /// `mesh_fan` holds the next and the previous vertex.
+  std::vector<std::array<std::uint32_t, 8>> mesh_corners;
+  std::vector<std::array<float, 4>> mesh_places;
+  std::vector<std::uint32_t> mesh_start, mesh_fan;
 };
 
 /// The surfaces of all bodies. A body without a surface has no triangles.

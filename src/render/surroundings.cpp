@@ -11,6 +11,13 @@ namespace {
 /// A thing's pixels may lie this far outside of it: smoothing, and images of half the size [pixels].
 constexpr double edge_margin = 4.0;
 
+/// How far from particles something may be drawn [m]: their own pictures, and meshes, which reach half a
+/// cell, stretched, out of the cells that they hang on.
+double drawn_around(const Model& model, double spacing) {
+  const bool mesh = std::ranges::any_of(model.bodies, [](const Body& body) { return !body.skin.empty(); });
+  return std::max(4.0 * particle_radius(spacing), mesh ? 1.5 * spacing : 0.0);
+}
+
 }  // namespace
 
 void Renderer::Parts::draw_ground(const Drawing& d, bool shadows) const {
@@ -59,7 +66,7 @@ std::vector<gl::PixelBox> Renderer::Parts::Surroundings::around_flesh(const Part
     if (body.style == SurfaceStyle::flesh) reach = std::max(reach, light_reach(body));
   MovingThings things;
   things.particles = p.uploaded_particles;
-  things.particle_radius = 4.0 * particle_radius(p.buffers->spacing());
+  things.particle_radius = drawn_around(*p.model, p.buffers->spacing());
   const double shift = 0.22 * reach / static_cast<double>(p.drawn_frame.eye.w);  // in heights of the picture
   things.margin = edge_margin + shift * static_cast<double>(p.targets->picture.colour.height());
   return moving_part(p.drawn_frame, things);
@@ -73,7 +80,7 @@ std::vector<gl::PixelBox> Renderer::Parts::Surroundings::changing(const Parts& p
     return {p.targets->box()};
   things.particles = p.uploaded_particles;
   things.balls = p.uploaded_ball_items;
-  things.particle_radius = 4.0 * particle_radius(p.buffers->spacing());
+  things.particle_radius = drawn_around(*p.model, p.buffers->spacing());
   things.margin = edge_margin;
   things.extents.push_back(rods_);
   if (const auto& marks = options.highlight) {

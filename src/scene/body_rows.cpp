@@ -1,4 +1,5 @@
 #include "aspic/solver.h"
+#include "mesh/voxelise.h"
 #include "model/bodies.h"
 #include "scene/parameter_rows.h"
 
@@ -182,6 +183,49 @@ Parameter cell_file() {
   return p;
 }
 
+/// A key of a mesh, which becomes layers and a skin when the scene is read: no scene has it.
+Parameter mesh_key(std::string_view path, ParameterType type, std::string_view unit, const Range& range,
+                   std::string_view meaning_of_absence, std::string_view meaning) {
+  Parameter p = cell_file();
+  p.path = path;
+  p.type = type;
+  p.unit = unit;
+  p.range = range;
+  p.when_absent = meaning_of_absence;
+  p.meaning = meaning;
+  return p;
+}
+
+Rows mesh_rows() {
+  Parameter up = mesh_key("voxels[].up", ParameterType::word, "", {}, "y",
+                          "Axis of the mesh's file that points upwards.");
+  up.words = {"y", "z"};
+  return {
+      mesh_key("voxels[].mesh", ParameterType::text, "", {}, "none: the cells are here",
+               "A mesh, .obj, .stl or .ply, relative to the scene's file, or one that is built in, rabbit: "
+               "the cells inside, and the "
+               "mesh drawn as their skin. Instead of `layers` and `size`."),
+      mesh_key("voxels[].cells", ParameterType::integer, "", {1, most_mesh_cells}, "24",
+               "Cells along the longest edge of the mesh's box."),
+      mesh_key("voxels[].height", ParameterType::number, "m", positive_length, "that of the file, in metres",
+               "Height of the mesh's box, to which the mesh is scaled."),
+      up,
+  };
+}
+
+/// The skin, without what breaks a long text into lines.
+Parameter skin_row() {
+  Parameter p = fixed(unless_empty(
+      "the faces of the cells are drawn", "voxels[].skin", FIELD(model.voxels[i].skin),
+      "A mesh that is drawn in place of the cells' faces and moves with them, as made from `mesh`."));
+  p.write = [](const Parameter&, Scene& scene, std::size_t i, const Value& value) {
+    std::string text = std::get<std::string>(value);
+    std::erase_if(text, [](char c) { return c == '\n' || c == '\r' || c == ' '; });
+    scene.model.voxels[i].skin = std::move(text);
+  };
+  return p;
+}
+
 Rows voxel_rows() {
 #define VOXEL_MATERIAL(field) FIELD(model.voxels[i].material.field)
   return joined(
@@ -198,13 +242,15 @@ Rows voxel_rows() {
             "voxels[].layers", FIELD(model.voxels[i].layers),
             "Cells, a character each: layers upwards (y), rows from back to front (z), from left to right "
             "(x); '.', '0' and ' ' are empty.")),
-        cell_file(),
-        fixed(word<piece_choices>("voxels[].pieces", FIELD(model.voxels[i].pieces),
+        cell_file()},
+       mesh_rows(),
+       {fixed(word<piece_choices>("voxels[].pieces", FIELD(model.voxels[i].pieces),
                                   "What becomes of cells that share no face with the others: the scene is "
                                   "refused, the largest piece is kept, or all are.")),
         fixed(pins("voxels", row("voxels[].pinned", FIELD(model.voxels[i].pinned),
                                  "Particles that never move: faces, corners such as left-top-front, or local "
-                                 "indices.")))}});
+                                 "indices."))),
+        skin_row()}});
 }
 
 Rows ball_rows() {

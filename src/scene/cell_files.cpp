@@ -76,23 +76,30 @@ Result<FileCells> read_cells(const std::string& path, const CellPalette& by_numb
 
 }  // namespace
 
+bool is_cell_source(std::string_view path) {
+  constexpr std::string_view keys[] = {"voxels[].file", "voxels[].mesh", "voxels[].cells", "voxels[].height",
+                                       "voxels[].up"};
+  return std::ranges::find(keys, path) != std::end(keys);
+}
+
 void read_cell_files(Reader& reader, const std::vector<diagnostics::Source>& sources) {
   for (std::size_t i = 0; i < reader.scene().model.voxels.size(); ++i) {
     const std::string path = path_text("voxels[].file", i);
     const auto written = reader.written().find(path);
-    const auto name = reader.cell_files().find(path);
-    if (written == reader.written().end() || written->second.problem || name == reader.cell_files().end())
+    const auto name = reader.cell_sources().find(path);
+    if (written == reader.written().end() || written->second.problem || name == reader.cell_sources().end())
       continue;
     const bool in_file = written->second.key.source == 0;
     const std::filesystem::path folder =
         in_file ? std::filesystem::path(sources.front().label).parent_path() : std::filesystem::path();
     VoxelsSettings& voxels = reader.scene().model.voxels[i];
-    auto cells = read_cells((folder / name->second).string(), voxels.palette);
+    const auto& file = std::get<std::string>(name->second);
+    auto cells = read_cells((folder / file).string(), voxels.palette);
     if (!cells) {
       const std::string& what = cells.error().what;
       reader.blame(path, cells.error().code == ErrorCode::io
                              ? fmt::format("'voxels.file': {}", what)
-                             : fmt::format("'voxels.file' \"{}\": {}", excerpt(name->second, 60), what));
+                             : fmt::format("'voxels.file' \"{}\": {}", excerpt(file, 60), what));
       continue;
     }
     voxels.layers = std::move(cells->layers);

@@ -33,6 +33,7 @@ Result<Scene> with_arguments(reader::Reader reader, std::vector<diagnostics::Sou
                              decltype(overrides::apply) apply = overrides::apply) {
   apply({overrides, options.origin}, reader, sources);
   reader::read_cell_files(reader, sources);
+  reader::read_meshes(reader, sources, options.notes);
   auto problems = reader.problems(options.memory_bytes ? options.memory_bytes : available_memory());
   if (!problems.empty()) return diagnostics::rejection(sources, std::move(problems));
   return std::move(reader.scene());

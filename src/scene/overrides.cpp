@@ -336,6 +336,11 @@ void apply_to(const Keys& keys, const Arguments& arguments, Reader& reader,
   for (std::size_t v = 0; v < reader.scene().model.voxels.size(); ++v) {
     reader.prefer_argument(path_text("voxels[].file", v), path_text("voxels[].layers", v));
     reader.prefer_argument(path_text("voxels[].layers", v), path_text("voxels[].file", v));
+    for (const std::string_view other :
+         {"voxels[].layers", "voxels[].file", "voxels[].size", "voxels[].skin"}) {
+      reader.prefer_argument(path_text("voxels[].mesh", v), path_text(other, v));
+      reader.prefer_argument(path_text(other, v), path_text("voxels[].mesh", v));
+    }
   }
   for (std::size_t c = 0; c < cubes.size(); ++c) {
     reader.prefer_argument(path_text("cube[].particles", c), path_text("cube[].particles-per-edge", c));

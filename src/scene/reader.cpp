@@ -264,7 +264,7 @@ void Reader::read_parameter(const Parameter& p, const toml::node& node, std::siz
                          complaint->message};
     } else {
       p.set(scene_, index, value);
-      if (p.path == "voxels[].file") cell_files_[path_text(p.path, index)] = std::get<std::string>(value);
+      if (is_cell_source(p.path)) cell_sources_[path_text(p.path, index)] = value;
     }
   }
   // What was written wrong was written: a shape that has no such key complains about that too.

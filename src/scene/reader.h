@@ -56,8 +56,8 @@ class Reader {
   /// Keys of an element of a section, `cube[]`, that were written although a material would decide them.
   std::vector<std::string> explicit_keys(std::string_view section, std::size_t index) const;
 
-  /// Files that cells come from, by path of the key.
-  const std::map<std::string, std::string>& cell_files() const { return cell_files_; }
+  /// Values of the keys that cells come from (is_cell_source()), by path.
+  const std::map<std::string, Value>& cell_sources() const { return cell_sources_; }
   /// What is wrong with the value of a path that was written.
   void blame(const std::string& path, std::string message);
 
@@ -76,13 +76,19 @@ class Reader {
   Scene scene_;
   bool has_text_;
   std::map<std::string, Written> written_;  // by path with indices
-  std::map<std::string, std::string> cell_files_;
+  std::map<std::string, Value> cell_sources_;
   std::vector<Problem> problems_;  // of keys that are not in the table, and of arguments
 };
 
 /// Puts the cells of files in the place of layers. Paths are relative to the scene's file, or of arguments to
 /// the working directory.
 void read_cell_files(Reader& reader, const std::vector<diagnostics::Source>& sources);
+/// The same of meshes, with size and skin. What was done to them goes to `notes`, where that is not null.
+void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources,
+                 std::vector<std::string>* notes);
+
+/// Whether a key of [[voxels]] names where cells come from: it is read once, and no scene has it.
+bool is_cell_source(std::string_view path);
 
 }  // namespace aspic::reader
 

@@ -90,6 +90,14 @@ std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes)
       problems.push_back({std::max(layers->second.key, file->second.key),
                           "a body of cells has either 'layers' or a 'file' of them, not both; leave out one "
                           "of them"});
+    const auto mesh = written_.find(path_text("voxels[].mesh", v));
+    for (const std::string_view other : {"layers", "file", "size", "skin"}) {
+      const auto also = written_.find(path_text(fmt::format("voxels[].{}", other), v));
+      if (mesh != written_.end() && also != written_.end())
+        problems.push_back(
+            {std::max(mesh->second.key, also->second.key),
+             fmt::format("'{}' follows from the mesh; leave out 'mesh' or '{}'", other, other)});
+    }
   }
   check_materials(problems);
   for (const SceneComplaint& complaint : check_scene(scene_, memory_bytes)) {

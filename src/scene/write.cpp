@@ -75,6 +75,15 @@ std::string layers_text(const CellLayers& layers) {
   return text + "\n]";
 }
 
+/// A text without blanks and escapes, on as many lines as it takes.
+std::string wrapped_text(const std::string& text) {
+  constexpr std::size_t width = 120;
+  if (text.size() < width) return Writer()(text);
+  std::string lines = "\"\"\"";
+  for (std::size_t at = 0; at < text.size(); at += width) lines += "\n" + text.substr(at, width);
+  return lines + "\"\"\"";
+}
+
 /// An inline table; of a material that has a name, the name alone.
 std::string inline_text(std::string_view name, std::string_view keys) {
   constexpr std::string_view named = "name = ";
@@ -115,8 +124,9 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
       }
       continue;
     }
-    const std::string text =
-        p.type == ParameterType::layers ? layers_text(std::get<CellLayers>(*value)) : toml_value(*value);
+    const std::string text = p.type == ParameterType::layers ? layers_text(std::get<CellLayers>(*value))
+                             : p.path == "voxels[].skin"     ? wrapped_text(std::get<std::string>(*value))
+                                                             : toml_value(*value);
     if (dot == std::string_view::npos) {
       std::string comment(p.unit);
       if (p.type == ParameterType::word) comment = fmt::format("{}", fmt::join(p.words, " | "));

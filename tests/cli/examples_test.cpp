@@ -227,13 +227,22 @@ class Reader {
                   dir_.file("Configuration.txt"));
     const auto scene = test::aspic({"scene", "show", "cube-plane", "--set", "cube[0].particles-per-edge=4"});
     dir_.write("my-scene.toml", scene.out);
+    fs::copy_file(fs::path(ASPIC_SOURCE_DIR) / "assets/meshes/rabbit.obj", dir_.file("bunny.obj"));
+    // A tetrahedron in millimetres.
+    std::string part = "solid part\n";
+    for (const char* const corners :
+         {"vertex 0 0 0 vertex 0 90 0 vertex 90 0 0", "vertex 0 0 0 vertex 90 0 0 vertex 0 0 90",
+          "vertex 0 0 0 vertex 0 0 90 vertex 0 90 0", "vertex 90 0 0 vertex 0 90 0 vertex 0 0 90"})
+      part += std::string("facet normal 0 0 0\nouter loop\n") + corners + "\nendloop\nendfacet\n";
+    dir_.write("part.stl", part + "endsolid part\n");
     dir_.write("hands.toml", "[[inputs]]\nstep = 5\npinned = [0]\n");
   }
 
   void run(const Example& example, Checks checks = Checks::listed) {
     // What one example wrote may be in the way of the next; scenes and checkpoints are meant for it.
     for (const auto& entry : fs::directory_iterator(dir_.path())) {
-      const std::string ending = entry.path().extension().string();
+      const std::string ending = entry.path().extension().string(), name = entry.path().filename().string();
+      if (name == "bunny.obj" || name == "part.stl") continue;
       if (entry.is_regular_file() && ending != ".toml" && ending != ".aspic" && ending != ".txt")
         fs::remove(entry.path());
     }

@@ -11,9 +11,10 @@
 namespace aspic::fuzz {
 
 std::span<const Target> targets() {
-  static const std::array all = {scene_target,  set_target,           view_target,      checkpoint_target,
-                                 inputs_target, configuration_target, state_csv_target, kept_state_target,
-                                 npy_target,    shader_target};
+  static const std::array all = {scene_target,   set_target,           view_target,      checkpoint_target,
+                                 inputs_target,  configuration_target, state_csv_target, kept_state_target,
+                                 npy_target,     shader_target,        mesh_obj_target,  mesh_stl_target,
+                                 mesh_ply_target};
   return all;
 }
 

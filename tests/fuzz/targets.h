@@ -53,6 +53,10 @@ extern const Target kept_state_target;
 extern const Target npy_target;
 /// Shader files with includes (parts separated by a zero byte), and a driver's compile log.
 extern const Target shader_target;
+/// Meshes of each format: read, repaired, made into cells with a skin.
+extern const Target mesh_obj_target;
+extern const Target mesh_stl_target;
+extern const Target mesh_ply_target;
 
 /// The words of scene files: keys, tables, words of enumerations, numbers at the ends of ranges.
 std::vector<std::string> scene_words();

@@ -13,6 +13,7 @@
 #include "io/state_sink.h"
 #include "io/state_vtp.h"
 #include "io/zip_writer.h"
+#include "model/skin_text.h"
 #include "model/springs.h"
 #include "support/model_building.h"
 #include "support/random_state.h"
@@ -427,6 +428,51 @@ TEST_F(Exports, WithoutAnIntervalSamplesAreAFiftiethOfASecondApart) {
   const auto sink = open("run.npz", 0);
   take(*sink, 0);
   EXPECT_EQ(sink->next_step(0), 20u) << "0.02 s of 1 ms each";
+}
+
+// A mesh's vertices are where the corners of their cells put them; a body before and one after it have their
+// own.
+TEST_F(Exports, ACacheAndArraysHaveMeshes) {
+  TriangleMesh tetrahedron;
+  tetrahedron.vertices = {{-0.25, 0.0, 0.0}, {1.25, 0.5, 0.0}, {0.5, 1.0, 1.0}, {0.5, 0.25, 2.25}};
+  tetrahedron.triangles = {{2, 1, 0}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  ModelSettings settings;
+  settings.cubes.resize(1);
+  settings.cubes[0].particles_per_edge = 2;
+  settings.voxels.resize(1);
+  settings.voxels[0].layers = {{"1", "1"}};
+  settings.voxels[0].skin = to_skin_text(tetrahedron);
+  settings.cloths.resize(1);
+  settings.cloths[0].particles = {2, 2};
+  model_ = test::build(settings);
+  const auto cache = open("run.pc2", 10), arrays = open("run.npz", 10);
+  for (const std::uint64_t step : {0u, 10u}) {
+    take(*cache, step);
+    take(*arrays, step);
+  }
+  finish(*cache, 10);
+  finish(*arrays, 10);
+  const BodySkin& skin = model_.bodies[1].skin;
+  const std::vector<Vec3> places = skin_positions(skin.binding, skin.corners, at(0).position);
+  const Object object(dir_.read("run.obj"));
+  ASSERT_EQ(object.vertices.size(), 8u + 4u + 4u);
+  ASSERT_EQ(object.faces.at("body-1").size(), 4u);
+  for (std::size_t f = 0; f < 4; ++f)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      EXPECT_LT(length(object.vertices[object.faces.at("body-1")[f][corner]] -
+                       places[tetrahedron.triangles[f][corner]]),
+                1e-5);
+  const Archive archive(dir_.read("run.npz"));
+  EXPECT_EQ(archive.arrays.at("model.mesh-triangles").numbers<std::uint32_t>(),
+            (std::vector<std::uint32_t>{2, 1, 0, 0, 1, 3, 1, 2, 3, 2, 0, 3}));
+  EXPECT_EQ(archive.arrays.at("model.mesh-body").numbers<std::int32_t>(), std::vector<std::int32_t>(4, 1));
+  const auto corners = archive.arrays.at("model.mesh-corners").numbers<std::uint32_t>();
+  const auto weights = archive.arrays.at("model.mesh-weights").numbers<double>();
+  for (std::size_t v = 0; v < 4; ++v) {
+    Vec3 sum;
+    for (std::size_t n = 0; n < 8; ++n) sum = sum + weights[8 * v + n] * at(0).position[corners[8 * v + n]];
+    EXPECT_LT(length(sum - places[v]), 1e-12);
+  }
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
         Shot{"cube-bowl", 1300}, Shot{"cube-torus", 1200}, Shot{"cube-hole", 1500}, Shot{"elevator", 2600},
         Shot{"large-cube", 0}, Shot{"goal-net", 300}, Shot{"penalty", 1080}, Shot{"cube-and-balls", 700},
         Shot{"ball-pit", 4000}, Shot{"flag", 2400}, Shot{"curtain", 1000}, Shot{"bridge", 700},
-        Shot{"swing", 900},
+        Shot{"swing", 900}, Shot{"jelly-figure", 1500},
         Shot{"bridge",
              700,
              {"view.colour=strain", "view.cut.inside=section", "view.cut.normal=[0.0, 0.0, 1.0]"},

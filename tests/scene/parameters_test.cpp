@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "scene/reader.h"
 #include "scene/scene_support.h"
 #include "scene/write.h"
 
@@ -196,6 +197,7 @@ TEST_P(EveryKey, RefusesValuesOutOfRangeInTheirPlace) {
 }
 
 TEST_P(EveryKey, AcceptsTheEndsOfItsRange) {
+  if (reader::is_cell_source(p.path)) return;  // MeshScene.TakesTheEndsOfItsRanges
   if (p.type != ParameterType::integer && p.type != ParameterType::number) {
     for (const std::string_view word : p.words) {
       const std::string value =

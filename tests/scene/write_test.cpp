@@ -8,6 +8,7 @@
 
 #include "model/bodies.h"
 #include "model/integrator.h"
+#include "model/skin_text.h"
 #include "scene/scene_support.h"
 
 namespace aspic {
@@ -52,6 +53,10 @@ Value random_value(const Parameter& p, std::mt19937_64& random) {
       return number();
     case ParameterType::text:
       if (p.path == "view.follow") return std::string("cube[0]");  // there is always one
+      if (p.path == "voxels[].skin")
+        return to_skin_text(
+            {{{static_cast<double>(random() % 9), 0.5, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.25}},
+             {{0, 1, 2}}});
       if (p.key() == "name" && !p.section().empty()) return fmt::format("name \"{}\"", random());
       return std::string("a \"name\" with \\ and \t and \x7f and é");
     case ParameterType::word: {

@@ -1,0 +1,38 @@
+#pragma once
+// A mesh as a scene to start from.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aspic/scene.h"
+#include "base/result.h"
+
+namespace aspic {
+
+/// How a mesh becomes cells; the keys of [[voxels]] of the same names say more.
+struct MeshImport {
+  std::string file;                   ///< .obj, .stl or .ply, or a mesh that is built in
+  std::optional<int> cells = {};      ///< along its longest edge
+  std::optional<double> height = {};  ///< [m]
+  std::string up = "y";               ///< axis of the file
+  std::string pieces = "largest";
+};
+
+/// What came of a mesh.
+struct ImportedMesh {
+  Scene scene;
+  std::vector<std::string> notes;  ///< what was repaired and made, a sentence each without a full stop
+};
+
+/// Whether a name is that of a mesh: by its ending, or of a mesh that is built in.
+bool names_mesh(const std::string& file);
+
+/// The mesh as a body of cells that falls on a plane, of a material stiff enough to carry itself, with the
+/// mesh as its skin and a camera that sees it. The time step is symplectic Euler's usual one, which the
+/// caller may want to change. Errors: as load_scene().
+Result<ImportedMesh> import_mesh(const MeshImport& import);
+
+/// The scene as TOML, headed by comments that name its origin and the notes.
+std::string imported_toml(const ImportedMesh& imported, const std::string& file_name);
+
+}  // namespace aspic

@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/read_mesh.h"
+
+namespace aspic {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::string_view corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+std::string obj_error(const std::string& text) {
+  const auto read = parse_obj(text, "a.obj");
+  EXPECT_FALSE(read.ok()) << text;
+  if (read) return {};
+  EXPECT_EQ(read.error().code, ErrorCode::scene_rejected);
+  return read.error().what;
+}
+
+TEST(ReadObj, TakesVerticesAndFacesAndPassesOverTheRest) {
+  const auto read = parse_obj(
+      "# a comment\r\nmtllib a.mtl\no thing\nv 0 0 0 1.0\r\nv 1e0 +0 .0 0.5 0.5 0.5\nv 1 -1 0 # end\nvn 0 0 "
+      "1\nvt 0 0\ng "
+      "left\nusemtl red\ns off\nf 1/1/1 2//1 3\nl 1 2\n",
+      "a.obj");
+  ASSERT_TRUE(read.ok()) << read.error().what;
+  EXPECT_THAT(read->mesh.vertices, ElementsAre(Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, -1, 0}));
+  EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_THAT(read->notes, IsEmpty());
+}
+
+TEST(ReadObj, PolygonsAreFans) {
+  const auto read = parse_obj(std::string(corners) + "f 1 2 3 4", "a.obj");
+  ASSERT_TRUE(read.ok()) << read.error().what;
+  EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
+}
+
+TEST(ReadObj, NegativeIndicesCountBackFromTheLine) {
+  const auto read = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -4 -2 -1\n", "a.obj");
+  ASSERT_TRUE(read.ok()) << read.error().what;
+  EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
+}
+
+TEST(ReadObj, LinesContinueAfterABackslashAndFacesMayComeFirst) {
+  const auto read = parse_obj("f 1 \\\n 2 \\\n 3\n" + std::string(corners), "a.obj");
+  ASSERT_TRUE(read.ok()) << read.error().what;
+  EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_THAT(obj_error("v 0 0 \\\n 0\nv x 0 0\n"), HasSubstr("a.obj:3: 'x' is no number"));
+}
+
+TEST(ReadObj, NumbersThatAreNotFiniteAreReadForRepairToLeaveOut) {
+  const auto read = parse_obj("v nan 1.#QNAN -inf\nv 1e999 -1e-999 0.000\nv 1 1 1\nf 1 2 3\n", "a.obj");
+  ASSERT_TRUE(read.ok()) << read.error().what;
+  EXPECT_TRUE(std::isnan(read->mesh.vertices[0].x) && std::isnan(read->mesh.vertices[0].y));
+  EXPECT_TRUE(std::isinf(read->mesh.vertices[0].z) && std::isinf(read->mesh.vertices[1].x));
+  EXPECT_EQ(read->mesh.vertices[1].y, 0.0);
+}
+
+TEST(ReadObj, ErrorsNameTheLineAndWhatHelps) {
+  EXPECT_THAT(obj_error("v 0 0\n"),
+              HasSubstr("a.obj:1: this vertex has less than three numbers; a vertex is v 0.1 0.2 0.3"));
+  EXPECT_THAT(obj_error("\nv 0,5 0 0\n"),
+              HasSubstr("a.obj:2: '0,5' is no number; export with decimal points"));
+  EXPECT_THAT(obj_error(std::string(corners) + "f 1 2 0\n"), HasSubstr("a.obj:5: '0' names no vertex"));
+  EXPECT_THAT(obj_error(std::string(corners) + "f 1 2 -5\n"),
+              HasSubstr("a.obj:5: '-5' names a vertex before the first: there are 4"));
+  EXPECT_THAT(obj_error(std::string(corners) + "f 1 2 3\nf 1 2 9\nf 1 2 4"),
+              HasSubstr("a.obj:6: this face names vertex 8, counted from 0, and the file has 4"));
+  EXPECT_THAT(obj_error(std::string(corners) + "f 1 2 99999999999\n"), HasSubstr("too large"));
+  EXPECT_THAT(obj_error(std::string(corners) + "surf 0 1 0 1 1 2 3\n"),
+              HasSubstr("a.obj:5: 'surf' describes a free-form surface"));
+  EXPECT_THAT(obj_error(std::string(corners)), HasSubstr("4 vertices and no face"));
+  EXPECT_THAT(obj_error(""), HasSubstr("a.obj:1: there is no vertex and no face"));
+  EXPECT_THAT(obj_error(std::string("v 0 0 0\n\0", 9)), HasSubstr("a.obj: byte 8: this is a binary file"));
+}
+
+TEST(ReadObj, NotesWhatItDoesNotKnow) {
+  const auto read = parse_obj(std::string(corners) + "wobble 3\nf 1 2\nf 1 2 3\nwobble\n", "a.obj");
+  ASSERT_TRUE(read.ok()) << read.error().what;
+  EXPECT_THAT(read->notes, ElementsAre("line 5: 'wobble' is not known and was passed over",
+                                       "faces of less than three corners were left out: 1"));
+}
+
+TEST(ReadMesh, EndingOrBeginningChoosesTheFormat) {
+  EXPECT_TRUE(parse_mesh(std::string(corners) + "f 1 2 3", "A.OBJ").ok());
+  const auto unknown = parse_mesh("glTF", "bunny.glb");
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_THAT(unknown.error().what,
+              HasSubstr("bunny.glb: this is no kind of mesh that is read: those are .obj, .stl, .ply"));
+  const auto ply = parse_mesh("ply\nformat ascii 1.0\nend_header\n", "bunny");
+  ASSERT_FALSE(ply.ok());
+  EXPECT_THAT(ply.error().what, HasSubstr("no vertex and no face"));
+  EXPECT_EQ(load_mesh("/nowhere/bunny.obj").error().code, ErrorCode::io);
+}
+
+}  // namespace
+}  // namespace aspic
