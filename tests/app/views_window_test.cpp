@@ -33,6 +33,8 @@ const std::vector<View>& views() {
                                         {"elevator", 1500},
                                         {"flag", 500},
                                         {"curtain", 500},
+                                        {"bridge", 700},
+                                        {"swing", 900},
                                         {"course-2021-plane", 1250},
                                         {"course-2021-tilted-plane", 1050},
                                         {"course-2021-sphere", 900},

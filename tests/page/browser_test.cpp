@@ -73,6 +73,8 @@ TEST_P(EveryPageInBrowsers, ShowsEveryScene) {
       {"ball-pit", "0.8"},
       {"flag", "2.4"},
       {"curtain", "1"},
+      {"bridge", "0.7"},
+      {"swing", "0.45"},
       {"course-2021-plane", "1.25"},
       {"course-2021-tilted-plane", "1.05"},
       {"course-2021-sphere", "0.9"},

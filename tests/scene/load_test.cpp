@@ -203,7 +203,7 @@ std::pair<std::uint32_t, std::uint32_t> expected_sizes(const std::string& scene)
   if (scene == "flag") return {36 * 24, 0};
   if (scene == "curtain") return {41 * 33, 2};
   if (scene == "bridge") return {690, 2};
-  if (scene == "swing") return {25 * 16, 0};
+  if (scene == "swing") return {21 * 4 * 9, 0};
   if (scene == "jelly-figure") return {1566, 0};
   if (scene == "ball-pit") return {0, 1000};
   if (scene == "cube-and-balls") return {1000, 3};
