@@ -1,38 +1,15 @@
 // Implicit Euler on the device: a small state machine in the Solve block decides what each dispatch does, so that any
-// number of rounds can be queued and none needs a read-back. A round is evaluate, apply, update, direction; a step is
-// begin, as many rounds as it takes, finish. Kernels whose phase it is not return at once. Where the ground prescribes a
+// number of rounds can be queued and none needs a read-back. A round is evaluate, apply, update, direction, with kernels of
+// contact between bodies around them where these may touch (implicit_touch_*.comp); a step is begin, as many rounds as it
+// takes, finish. Kernels whose phase it is not return at once. Where the ground prescribes a
 // part of δ, a linear system begins with a round that takes A times it to the right-hand side (Solve.prescribing).
 // src/cpu_reference/implicit_euler.h has the method and its source; this follows it operation by operation.
-layout(std430, binding = BINDING_STATE_A) restrict buffer StateA { Particle state_a[]; };
-layout(std430, binding = BINDING_STATE_B) restrict buffer StateB { Particle state_b[]; };
+#include "compute/implicit_control.glsl"
+#include "compute/implicit_state.glsl"
+
 layout(std430, binding = BINDING_TRIAL) restrict buffer Trial { vec4 trial[]; };
 layout(std430, binding = BINDING_SEARCH) restrict buffer Search { vec4 search[]; };
-layout(std430, binding = BINDING_SOLVE) restrict coherent buffer SolveBlock {
-  Solve solve;
-  vec4 partials[];
-};
 layout(std430, binding = BINDING_OWN) restrict buffer Own { vec4 own_vectors[]; };
-
-// What no dispatch changes while it works, read once an invocation: the block is coherent, so that every look at it goes
-// past the caches.
-uint parity;       // where the state is
-uint ended_steps;  // Solve.step
-bool prescribing;  // Solve.prescribing; evaluate alone changes it, and does not look at it
-
-// The phase of the dispatch; every kernel begins with it.
-uint enter() {
-  parity = solve.parity;
-  ended_steps = solve.step;
-  prescribing = solve.prescribing != 0u;
-  return solve.phase;
-}
-
-uint steps_done() { return ended_steps; }
-
-Particle state(uint i) {
-  if (parity == 0u) return state_a[AT(i)];
-  return state_b[AT(i)];
-}
 
 // A window has its particles' vectors to itself. Data that neighbours need of them lies with the search direction.
 #ifdef ASPIC_WINDOWS
@@ -53,6 +30,9 @@ void prescribe(uint i, vec4 value) {
   set_own4(OWN_PRESCRIBED, i, value);
 #ifdef ASPIC_WINDOWS
   search[AT_SEARCH(i) + 1u] = value;
+#endif
+#ifdef ASPIC_TOUCH
+  search[TOUCH_AT(TOUCH_PRESCRIBED, i)] = value;
 #endif
 }
 vec3 prescribed_of_any(uint i) {
@@ -78,5 +58,7 @@ vec3 turning(vec4 across, vec3 p) {
   return product;
 }
 
-void report_overrun(uint kernel) { atomicMax(solve.overrun, kernel); }
+#ifdef ASPIC_TOUCH
+#include "compute/implicit_touch.glsl"
+#endif
 #include "compute/bounded.glsl"

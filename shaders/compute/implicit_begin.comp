@@ -9,8 +9,12 @@
 #include "compute/spring.glsl"
 #include "compute/terrain.glsl"
 
-vec3 held_contact_force(uint i, Particle p) {
-  if (contact_model == CONTACT_COULOMB || p.position.w == 0.0) return vec3(0.0);
+#ifdef ASPIC_TOUCH
+layout(location = LOCATION_TOUCH_COUNT) uniform uint touch_count;  // encounters
+#endif
+
+// Gravity, springs and pulls.
+vec3 force(uint i, Particle p) {
   precise vec3 f = p.velocity.w * gravity.xyz;
   Walk w = walk(i);
   for (w.end = bounded(w.end, KERNEL_IMPLICIT_BEGIN); w.at < w.end; ++w.at) {
@@ -20,6 +24,12 @@ vec3 held_contact_force(uint i, Particle p) {
     f += spring_force(link.spring, p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
   }
   f = with_pulls(i, p.position.xyz, p.velocity.xyz, f);
+  return f;
+}
+
+vec3 held_contact_force(uint i, Particle p) {
+  if (contact_model == CONTACT_COULOMB || p.position.w == 0.0) return vec3(0.0);
+  precise vec3 f = force(i, p);
   precise vec3 held = with_contact_force(p.position.xyz, p.velocity.xyz, f) - f;
   return held;
 }
@@ -28,15 +38,22 @@ void main() {
   uint phase = enter();
   // The host may have set a new target since the last one was reached.
   if (phase != PHASE_BEGIN && !(phase == PHASE_IDLE && ended_steps != solve.target_step)) return;
+#ifdef ASPIC_TOUCH
+  if (solve.stale != 0u) return;
+#endif
   uint i = item_index();
   if (i < item_end(particle_count)) {
     Particle p = state(i);
     set_own(OWN_HELD, i, held_contact_force(i, p));
     trial[AT(i)] = vec4(p.velocity.xyz, 0.0);
+#ifdef ASPIC_TOUCH
+    if (touch_count > 0u) keep_start(i, p, force(i, p));
+#endif
   }
   precise vec4 total;
   if (!reduce(vec4(0.0), total) || gl_LocalInvocationIndex != 0u) return;
   solve.newton = 0u;
+  solve.first_newton = 0u;
   solve.cg_total = 0u;
   solve.without_progress = 0u;
   solve.halvings = 0u;
@@ -45,4 +62,9 @@ void main() {
   solve.lambda = 1.0;
   solve.first = 1u;
   solve.phase = PHASE_EVALUATE;
+#ifdef ASPIC_TOUCH
+  solve.touching = 0u;
+  solve.again = 0u;
+  if (touch_count > 0u) solve.phase = PHASE_TOUCH;
+#endif
 }

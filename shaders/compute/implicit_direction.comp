@@ -10,7 +10,8 @@ void main() {
   if (i >= item_end(particle_count)) return;
   uint phase = enter();
   // No reduction tells whether this kernel was carried out; the next round looks at the count.
-  if ((phase == PHASE_CG || phase == PHASE_EVALUATE) && is_counted(i, particle_count)) atomicAdd(solve.moved, 1u);
+  bool works = phase == PHASE_CG || phase == PHASE_EVALUATE || phase == PHASE_TOUCH;
+  if (works && is_counted(i, particle_count)) atomicAdd(solve.moved, 1u);
   if (phase == PHASE_CG) {
     precise vec3 p = own(OWN_Z, i);
     if (!prescribing) p = p + solve.beta * search[AT_SEARCH(i)].xyz;
@@ -25,5 +26,7 @@ void main() {
     }
     set_own(OWN_BASE, i, base);
     trial[AT(i)] = vec4(next, 0.0);
+  } else if (phase == PHASE_TOUCH) {
+    if (solve.use_trial == 0u) trial[AT(i)] = vec4(own(OWN_BASE, i), 0.0);
   }
 }

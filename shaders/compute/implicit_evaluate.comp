@@ -59,12 +59,22 @@ vec4 evaluate(uint i) {
     f += linearised_pull(pulls[k], p.position.xyz, v, H);
     block = with_spring(block, H);
   }
+#ifdef ASPIC_TOUCH
+  if (solve.touching != 0u) {
+    precise vec3 diagonal = block.diagonal + touch_of(TOUCH_DIAGONAL, i), mixed = block.mixed + touch_of(TOUCH_MIXED, i);
+    block = DiagonalBlock(diagonal, mixed);
+  }
+#endif
   precise vec3 r = vec3(0.0);
   precise vec3 R = vec3(0.0);
   precise vec3 fall = vec3(0.0);
   Reaction reaction = no_reaction(v);
   if (p.position.w != 0.0) {
-    precise vec3 all_forces = f + own(OWN_HELD, i);
+    precise vec3 held = own(OWN_HELD, i);
+#ifdef ASPIC_TOUCH
+    if (solve.touching != 0u) held = held + touch_of(TOUCH_FORCE, i);
+#endif
+    precise vec3 all_forces = f + held;
     precise vec3 change = v - p.velocity.xyz;
     precise vec3 gained = time_step * (p.position.w * all_forces);
     r = time_step * all_forces - p.velocity.w * change;
@@ -89,12 +99,13 @@ vec4 evaluate(uint i) {
 void main() {
   uint phase = enter();
   uint i = item_index();
-  if (i == 0u && (phase == PHASE_EVALUATE || phase == PHASE_CG)) {
+  bool evaluates = phase == PHASE_EVALUATE || phase == PHASE_TOUCH;
+  if (i == 0u && (evaluates || phase == PHASE_CG)) {
     if (solve.moved != solve.ticks * COUNTED_OF(particle_count)) report_overrun(ITEMS_MISSING);
     ++solve.ticks;
   }
   if (i == 0u && phase == PHASE_CG) solve.prescribing = 0u;  // it took the round before
-  if (phase != PHASE_EVALUATE) return;
+  if (!evaluates) return;
   precise vec4 element = vec4(0.0);
   if (i < item_end(particle_count)) element = evaluate(i);
   precise vec4 total;

@@ -1,9 +1,17 @@
 // Implicit Euler: the last group judges the trial, and decides what comes next.
 
+// Of bodies that are near each other a second solve finds where they touch at its end.
 void end_solve(uint how, uint use_trial) {
   solve.end = how;
   solve.use_trial = use_trial;
   solve.phase = PHASE_DONE;
+  if (solve.touching == 0u || solve.again != 0u) return;
+  solve.touching = 0u;
+  solve.again = 1u;
+  solve.first = 3u;
+  solve.first_newton = solve.newton;
+  solve.without_progress = 0u;
+  solve.phase = PHASE_TOUCH;
 }
 
 // Eisenstat and Walker's forcing term from the ratio of two successive square sums of residuals.
@@ -17,6 +25,7 @@ float next_forcing(float ratio) {
 void judge(vec4 total) {
   precise float residual = total.x;
   precise float merit = total.y;
+  solve.phase = PHASE_EVALUATE;
   uint ground = atomicExchange(solve.ground, 0u);
   bool held = ground > 0u;
   if (solve.first == 1u && !(residual <= tolerance) && total.w < merit) {
@@ -50,7 +59,7 @@ void judge(vec4 total) {
     end_solve(SOLVE_CONVERGED, 1u);
   } else if (solve.without_progress >= (on_ground ? max_without_progress_on_ground : max_without_progress)) {
     end_solve(SOLVE_STAGNATED, 1u);
-  } else if (solve.newton == max_newton) {
+  } else if (solve.newton - solve.first_newton == max_newton) {
     end_solve(SOLVE_NOT_CONVERGED, 1u);
   } else {
     ++solve.newton;

@@ -27,6 +27,17 @@
 #define OWN_PRESCRIBED 10u  // ground: part of δ that it leaves no choice in [m/s]; w: terrains that hold, see held_word
 #define OWN_VECTORS 11u
 
+// Contact of bodies in implicit Euler: arrays over particles behind that of the search directions.
+#define TOUCH_START_FORCE 0u     // gravity, springs and pulls where the step begins [N]; w: inverse mass [1/kg]
+#define TOUCH_START_VELOCITY 1u  // there [m/s]
+#define TOUCH_FORCE 2u           // of contacts at the trial [N]
+#define TOUCH_DIAGONAL 3u        // their part of the diagonal block: xx, yy, zz [kg]
+#define TOUCH_MIXED 4u           // xy, xz, yz [kg]
+#define TOUCH_PRODUCT 5u         // of their matrix with the direction [kg·m/s]
+#define TOUCH_PRESCRIBED 6u      // as OWN_PRESCRIBED
+#define TOUCH_VECTORS 7u
+#define TOUCH_AT(which, i) (((which) + 1u) * particle_count + (i))
+
 // What the ground leaves a particle: Freedom in src/cpu_reference/implicit_ground.h.
 #define FREE_ALL 0.0
 #define FREE_PLANE 1.0
@@ -48,6 +59,7 @@
 #define PHASE_BEGIN 1u     // a step begins
 #define PHASE_EVALUATE 2u  // the residual at the trial is wanted
 #define PHASE_CG 3u        // a linear system is being solved
+#define PHASE_TOUCH 7u     // the same, and before it contacts of bodies are looked for
 #define PHASE_BALLS 6u     // the particles' step has ended, the balls' has not
 #define PHASE_DONE 4u      // v' is found: the step can end
 #define PHASE_HALTED 5u    // the step diverged: nothing moves any more
@@ -189,15 +201,17 @@ struct TouchEncounter {
   float depth;            // D [m]
   float margin;           // by which boxes of candidates are widened [m]
   float tie;              // distances that differ by less are equal [m]
-  float far_away;         // what is farther cannot touch [m]
+  float sight;            // up to where contacts are found [m]: ρ, or more in implicit Euler
 };
 
 // A contact.
 struct TouchRecord {
   vec4 normal;   // n; w: push f [N]
-  vec4 rub;      // friction on the point [N]; w: unused
+  vec4 rub;      // friction on the point [N]; w: the push, were there no motion [N]
   uvec4 corner;  // particles; w: contacts of the encounter, in its first record
   vec4 share;    // weights of the corners; w: unused
+  vec4 answer;   // implicit Euler, at the trial: force on the point [N], then its matrix times a direction; w: along n [kg]
+  vec4 turn;     // unit vector of a friction that slides; w: stiffness across n [kg]
 };
 
 // A particle that contacts may name: as a carrier of points, and as a corner.
@@ -262,7 +276,8 @@ struct Solve {
   uint parity;       // 0: the state is in A, 1: in B
   uint bad_particle;  // as in Control, or BAD_RESIDUAL
   uint blocks_done;   // of the reduction under way
-  uint first;         // 1: the trial is v, the step's first; 2: v + h·g, taken in its place; accepted whatever it is
+  uint first;         // accepted whatever it is: 1: the trial is v, the step's first; 2: v + h·g, taken in its place; 3: the
+                      // end of the first solve
   uint use_trial;     // 1: v' is the trial, 0: the base
   uint newton;        // iterations in this step
   uint cg;            // iterations in this linear system
@@ -297,6 +312,10 @@ struct Solve {
   uint full;          // 1: the balls' contacts found no room; their part of the step has to be repeated with more
   uint overrun;       // as in Control, or ITEMS_MISSING
   uint moved;         // items of the kernel direction that counted themselves in this step
+  uint touching;      // 1: bodies are near each other in this step
+  uint again;         // 1: the step's second solve, with what touches where the first one ended
+  uint stale;         // as in Control: the step has to wait for other lists
+  uint first_newton;  // iterations of the first solve
   uint solve_padding0, solve_padding1, solve_padding2;
 };
 

@@ -7,6 +7,12 @@ layout(std430, binding = BINDING_TOUCH_RECORDS) restrict buffer Records { TouchR
 
 uint first_record(uint encounter) { return encounter * TOUCH_RECORDS; }
 
+// f = max(0, rest − c·u) with the normal speed u of the point relative to the face.
+float push_of(TouchEncounter of, float rest, float u) {
+  precise float f = rest - of.touch_damping * u;
+  return f > 0.0 ? f : 0.0;
+}
+
 // Σ weight·y over the carriers of a point; of one carrier its own.
 vec3 over_carriers(TouchEncounter of, vec3 y_0, vec3 y_1) {
   if (of.carrier0 == of.carrier1) return y_0;

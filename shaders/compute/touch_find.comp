@@ -13,63 +13,13 @@ layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageStat
 layout(std430, binding = BINDING_TOUCH_TRIANGLES) restrict readonly buffer Triangles { uvec4 triangles[]; };
 layout(std430, binding = BINDING_TOUCH_WORDS) restrict readonly buffer Words { uint words[]; };
 
-#include "compute/touch_look.glsl"
-
-// f = max(0, k·(ρ − d) − c·u)
-float push_of(TouchEncounter of, float d, float u) {
-  precise float back = of.start_distance + of.spacing * touch_time;
-  precise float reach = back < of.reach ? back : of.reach;
-  precise float f = of.touch_stiffness * (reach - d) - of.touch_damping * u;
-  return f > 0.0 ? f : 0.0;
-}
-
-void add(Looker p, uint record, uint k, vec4 gap, vec3 at) {
-  uvec4 t = triangle_of(p, k);
-  precise float b_0 = (1.0 - at.x) - at.y;
-  precise vec3 share = vec3(b_0, at.x, at.y);
-  precise vec3 own = over_carriers(p.of, stage_velocity(p.of.carrier0), stage_velocity(p.of.carrier1));
-  precise vec3 other = over_corners(share, stage_velocity(t.x), stage_velocity(t.y), stage_velocity(t.z));
-  precise vec3 relative = own - other;
-  precise float u = dot3(gap.xyz, relative);
-  records[record] = TouchRecord(vec4(gap.xyz, push_of(p.of, gap.w, u)), vec4(0.0), uvec4(t.xyz, 0u), vec4(share, 0.0));
-}
-
-// How many contacts there are.
-uint touch(Looker p, uint first) {
-  uint count = 0u, fronts = 0u, none = 0u;
-  uint nearest = nearest_of(p, ANY_SIDE, fronts);
-  if (nearest == NO_TRIANGLE) return 0u;
-  bool closed = (p.of.flags & TOUCH_CLOSED) != 0u;
-  uint first_side = triangle_of(p, nearest).w;
-  Sight seen;
-  look(p, nearest, ANY_SIDE, seen);
-  precise vec4 gap;
-  if (closed ? closed_gap(seen, p.of.reach, p.of.depth, gap) : open_gap(seen, p.of.reach, gap))
-    add(p, first + count++, nearest, gap, seen.place);
-  if (!closed) return count;
-  for (uint side = 0u; side < TOUCH_SIDES; ++side) {
-    if (side == first_side || (fronts >> side & 1u) == 0u) continue;
-    uint k = nearest_of(p, side, none);
-    look(p, k, side, seen);
-    if (straight_in_front(seen, p.of.reach) && closed_gap(seen, p.of.reach, p.of.depth, gap))
-      add(p, first + count++, k, gap, seen.place);
-  }
-  return count;
-}
+vec3 start_place(uint i) { return start_state[i].position.xyz; }
+vec3 stage_place(uint i) { return stage_state[i].position.xyz; }
+vec3 stage_velocity(uint i) { return stage_state[i].velocity.xyz; }
+bool at_end() { return false; }
+#include "compute/touch_contacts.glsl"
 
 void main() {
   uint n = item_index();
-  if (n >= touch_count || halted()) return;
-  TouchEncounter of = encounters[n];
-  precise vec3 start = over_carriers(of, start_place(of.carrier0), start_place(of.carrier1));
-  precise vec3 place = over_carriers(of, stage_place(of.carrier0), stage_place(of.carrier1));
-  precise vec3 normal = vec3(0.0);
-  if ((of.flags & TOUCH_OPPOSING) != 0u) {
-    precise vec3 N_0 = normal_of(of.normals_first0, of.normals_count0);
-    precise vec3 N_1 = N_0;
-    if (of.carrier1 != of.carrier0) N_1 = normal_of(of.normals_first1, of.normals_count1);
-    normal = over_carriers(of, N_0, N_1);
-  }
-  uint count = touch(Looker(of, start, place, normal), first_record(n));
-  records[first_record(n)].corner.w = count;
+  if (n < touch_count && !halted()) find(n);
 }

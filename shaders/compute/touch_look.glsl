@@ -1,13 +1,9 @@
-// Which of the triangles near a point is the nearest. Expects start_state, stage_state, triangles and words.
+// Which of the triangles near a point is the nearest. Expects what compute/touch_contacts.glsl names.
 #include "compute/touch_sight.glsl"
 
 #define ANY_SIDE 0xffffffffu
 #define NO_TRIANGLE 0xffffffffu
 #define NOTHING_NEAR 3.0e38
-
-vec3 start_place(uint i) { return start_state[i].position.xyz; }
-vec3 stage_place(uint i) { return stage_state[i].position.xyz; }
-vec3 stage_velocity(uint i) { return stage_state[i].velocity.xyz; }
 
 // A point that looks at triangles of one body.
 struct Looker {
@@ -44,7 +40,8 @@ bool may_touch(Looker p, uvec4 t) {
 bool beyond(Looker p, vec3 A, vec3 B, vec3 C) {
   precise vec3 below = min(min(A, B), C) - p.place, above = p.place - max(max(A, B), C);
   precise vec3 away = max(max(below, above), vec3(0.0));
-  precise float limit = p.of.far_away * p.of.far_away;
+  precise float far = max(p.of.sight, p.of.depth) + 0.01 * p.of.spacing;
+  precise float limit = far * far;
   return dot3(away, away) > limit;
 }
 
@@ -70,7 +67,7 @@ uint nearest_of(Looker p, uint side, inout uint fronts) {
   for (uint k = 0u; k < p.of.near_count; ++k) {
     if (!look(p, k, side, seen)) continue;
     if (seen.L < least) least = seen.L;
-    if (straight_in_front(seen, p.of.reach)) fronts |= 1u << triangle_of(p, k).w;
+    if (straight_in_front(seen, p.of.sight)) fronts |= 1u << triangle_of(p, k).w;
   }
   if (!(least < NOTHING_NEAR)) return NO_TRIANGLE;
   precise float far = least + p.of.tie, straight = -1.0, nearest = least;

@@ -1,13 +1,16 @@
 // What contacts give a particle: as a carrier first, then as a corner, contacts ascending. An includer defines TAKE(weight,
 // record), which adds a contact's part to a carrier, and GIVE(weight, record) for a corner; both expect contacts that push.
 // The host bounds both lists.
+#ifndef COUNTS  // whether a contact counts
+#define COUNTS(record) (records[record].normal.w > 0.0)
+#endif
 layout(std430, binding = BINDING_TOUCH_LISTED) restrict readonly buffer Listed { TouchParticle listed[]; };
 layout(std430, binding = BINDING_TOUCH_WORDS) restrict readonly buffer Words { uint words[]; };
 
 #define FOR_CONTACTS(first, count)                                                    \
   for (uint n_e = 0u; n_e < (count); ++n_e)                                           \
     for (uint e = words[(first) + n_e], r = first_record(e), end = r + records[r].corner.w; r < end; ++r) \
-      if (records[r].normal.w > 0.0)
+      if (COUNTS(r))
 
 // A particle's weight among the carriers of an encounter's point.
 float weight_of_carrier(uint e, uint i) {

@@ -30,6 +30,10 @@ void add(std::array<BlockNumbers, 6>& blocks, std::size_t n, const reference::Sp
   for (std::size_t c = 0; c < 6; ++c) blocks[c].of[n] = *numbers[c];
 }
 
+void add_to(BlockNumbers& sum, const FloatArray& more, const Range& range) {
+  for (std::size_t n = 0; n < range.count; ++n) sum.of[n] += more[range.first + n];
+}
+
 std::array<float*, 3> from(BlockVectors& a, std::size_t n) {
   return {a[0].of + n, a[1].of + n, a[2].of + n};
 }
@@ -64,6 +68,7 @@ ImplicitEuler::ImplicitEuler(const StepParts& parts)
   const std::size_t count = model_->particle_count();
   if (model_->contact.model == ContactModel::course) held_force_ = vector_array(count, slice);
   if (ahead_.acts()) clearance_ = FloatArray(count, slice);
+  if (bodies_touch(*model_)) bodies_ = std::make_unique<ImplicitTouch>(*model_, inverse_mass_, workers_);
 }
 
 void ImplicitEuler::constants_changed() {
@@ -72,37 +77,7 @@ void ImplicitEuler::constants_changed() {
   h_ = static_cast<float>(model_->simulation.timestep);
   for (std::size_t body = 0; body < springs_.size(); ++body)
     with_springs(springs_[body], [&](const auto& each) { jacobians_[body].set_constants(each, h_); });
-}
-
-std::uint64_t ImplicitEuler::bytes() const {
-  std::uint64_t sum = sizeof(*this) + system_.bytes() + bytes_of(held_force_) + bytes_of(clearance_) +
-                      bytes_of(blocks_) + bytes_of(sums_) + bytes_of(largest_) + bytes_of(falling_) +
-                      bytes_of(jacobians_);
-  for (const Block& block : blocks_) sum += bytes_of(block.segments) + bytes_of(block.held);
-  for (const Jacobians& each : jacobians_) sum += each.bytes();
-  return sum;
-}
-
-void ImplicitEuler::cut_into_blocks() {
-  for (std::size_t at = 0; at < model_->particle_count(); at += block_size)
-    blocks_.push_back(
-        {{at, std::min<std::size_t>(block_size, model_->particle_count() - at)}, {}, {}, false, false});
-  const auto cut = [&](std::size_t body, std::size_t plane, std::size_t first, std::size_t count) {
-    for (std::size_t at = first; at < first + count;) {
-      const std::size_t end = std::min(first + count, (at / block_size + 1) * block_size);
-      blocks_[at / block_size].segments.push_back({body, plane, {at - first, end - at}, at});
-      at = end;
-    }
-  };
-  for (std::size_t b = 0; b < springs_.size(); ++b) {
-    if (const auto* const lattice = std::get_if<Lattice>(&springs_[b])) {
-      for (std::size_t plane = 0; plane < lattice->planes(); ++plane)
-        cut(b, plane, lattice->first() + plane * lattice->plane_size(), lattice->plane_size());
-    } else {
-      const auto& lists = std::get<SpringLists>(springs_[b]);
-      cut(b, 0, lists.first(), lists.count());
-    }
-  }
+  if (bodies_) bodies_ = std::make_unique<ImplicitTouch>(*model_, inverse_mass_, workers_);
 }
 
 template <class Task>
@@ -117,18 +92,6 @@ float ImplicitEuler::sum_of_blocks() const {
 Linearisation ImplicitEuler::at(const VectorArray& v, float h) const {
   const Vector g = dynamics_.gravity();
   return {&start_->x, &v, mass_.data(), {g.x(), g.y(), g.z()}, h};
-}
-
-/// Square of the way [m²] that a particle at x may go in this step without meeting ground; negative if it may
-/// meet some however slowly it moves.
-float ImplicitEuler::clearance(const Vector& x) const {
-  float least = std::numeric_limits<float>::infinity();
-  for (const reference::Ground<float>& ground : dynamics_.grounds()) {
-    float d = reference::distance<float>(ground, ground.start, x);
-    if (ground.end.moves) d -= 1.001f * (h_ * reference::norm3<float>(ground.end.velocity));
-    if (!(d >= least)) least = d;
-  }
-  return least > 0.0f ? least * least : -1.0f;
 }
 
 void ImplicitEuler::begin_block(Block& block) {
@@ -189,6 +152,26 @@ reference::Trial<float> ImplicitEuler::start() {
       std::copy_n(start_->v[c].data() + block.range.first, block.range.count,
                   end_->v[c].data() + block.range.first);
   });
+  touching_ = bodies_ && bodies_->start(dynamics_.step(), *start_, start_force());
+  return evaluate();
+}
+
+/// Of particles in ascending order: springs are evaluated block by block. A step of no length linearises
+/// there.
+ImplicitTouch::Force ImplicitEuler::start_force() {
+  return [this, of = std::make_shared<BlockForces>(), known = blocks_.size()](std::uint32_t i) mutable {
+    const std::size_t n = i / block_size;
+    if (n != known) forces(blocks_[n], at(start_->v, 0.0f), *of);
+    known = n;
+    return vector_of(of->f, i - blocks_[n].range.first);
+  };
+}
+
+reference::Trial<float> ImplicitEuler::touch_again(bool from_trial) {
+  if (!from_trial)
+    for (std::size_t c = 0; c < 3; ++c)
+      std::copy_n(system_.base[c].data(), model_->particle_count(), end_->v[c].data());
+  touching_ = bodies_->search_again(*start_, end_->v, h_, start_force());
   return evaluate();
 }
 
@@ -209,6 +192,8 @@ reference::Trial<float> ImplicitEuler::try_step(float lambda, bool onwards) {
 }
 
 reference::Trial<float> ImplicitEuler::evaluate() {
+  const bool course = model_->contact.model == ContactModel::course;
+  const bool pushes = touching_ && bodies_->react(end_->v, course ? &held_force_ : nullptr);
   for_each_block([&](Block& block, std::size_t n) {
     const ResidualShare share = evaluate_block(block);
     largest_[n] = share.largest;
@@ -218,7 +203,7 @@ reference::Trial<float> ImplicitEuler::evaluate() {
   const auto holds = [](const Block& block) { return !block.held.empty(); };
   prescribes_ = std::ranges::any_of(blocks_, &Block::prescribes);
   return {reference::tree_max(largest_), sum_of_blocks(), reference::tree_sum(falling_),
-          std::ranges::any_of(blocks_, holds)};
+          pushes || std::ranges::any_of(blocks_, holds)};
 }
 
 ResidualShare ImplicitEuler::evaluate_block(Block& block) {
@@ -227,11 +212,15 @@ ResidualShare ImplicitEuler::evaluate_block(Block& block) {
   const bool course = model_->contact.model == ContactModel::course;
   const BlockResidual at = {&start_->v,
                             &end_->v,
-                            course ? &held_force_ : nullptr,
+                            touching_ ? &bodies_->force()
+                            : course  ? &held_force_
+                                      : nullptr,
                             mass_.data(),
                             inverse_mass_.data(),
                             h_,
                             ahead_.acts() ? clearance_.data() : nullptr};
+  for (std::size_t c = 0; touching_ && c < 6; ++c)
+    add_to(at_trial.diagonal[c], bodies_->blocks()[c], block.range);
   BlockVectors R, free;
   BlockNumbers meets;
   block.held.clear();
@@ -282,6 +271,7 @@ void ImplicitEuler::multiply_block(const Block& block, const VectorArray& p) {
     set(product, i - range.first,
         vector_of(product, i - range.first) + pull_jacobian_[k] * parallel::vector_of(p, i));
   }
+  for (std::size_t c = 0; touching_ && c < 3; ++c) add_to(product[c], bodies_->product()[c], range);
   for (const Held& held : block.held) {
     const std::size_t n = held.particle - range.first;
     const Vector p_i = parallel::vector_of(p, held.particle);
@@ -309,6 +299,7 @@ float ImplicitEuler::start_solve() {
         std::fill_n(component.data() + block.range.first, block.range.count, 0.0f);
       for (const Held& held : block.held) parallel::set(system_.delta, held.particle, held.prescribed);
     });
+    if (touching_) bodies_->multiply(system_.delta);
     for_each_block([&](Block& block, std::size_t) { multiply_block(block, system_.delta); });
   }
   for_each_block([&](Block& block, std::size_t n) {
@@ -320,6 +311,7 @@ float ImplicitEuler::start_solve() {
 }
 
 float ImplicitEuler::apply() {
+  if (touching_) bodies_->multiply(system_.p);
   for_each_block([&](Block& block, std::size_t n) {
     multiply_block(block, system_.p);
     sums_[n] = dot(system_.p, system_.z, block.range);

@@ -13,10 +13,11 @@ namespace {
 constexpr std::uint32_t nowhere = 0xffffffffu;
 
 template <class T>
-TouchConstants<T> rounded_pair(const TouchPair& pair) {
-  return {static_cast<T>(pair.stiffness),     static_cast<T>(pair.damping), static_cast<T>(pair.spacing),
-          static_cast<T>(pair.reach),         static_cast<T>(pair.depth),   static_cast<T>(pair.margin),
-          static_cast<T>(2e-6 * pair.spacing)};
+TouchConstants<T> rounded_pair(const TouchPair& exact, double ahead_step) {
+  const TouchPair pair = ahead_step > 0.0 ? seen_ahead(exact, ahead_step) : exact;
+  return {static_cast<T>(pair.stiffness), static_cast<T>(pair.damping),       static_cast<T>(pair.spacing),
+          static_cast<T>(pair.reach),     static_cast<T>(pair.sight),         static_cast<T>(pair.depth),
+          static_cast<T>(pair.margin),    static_cast<T>(2e-6 * pair.spacing)};
 }
 
 /// P, or V: of the carriers' places or velocities.
@@ -43,7 +44,8 @@ Vector<T> place(const TouchPoint& point, const ParticleView<const T>& at) {
 }  // namespace
 
 template <class T>
-TouchTable<T>::TouchTable(const ContactSettings& contact, const std::vector<TouchBody>& bodies) {
+TouchTable<T>::TouchTable(const ContactSettings& contact, const std::vector<TouchBody>& bodies,
+                          double ahead_step) {
   std::vector<const TouchBody*> kinds;
   for (const TouchBody& body : bodies) {
     const auto found = std::ranges::find_if(kinds, [&](const TouchBody* k) { return k->alike(body); });
@@ -51,28 +53,32 @@ TouchTable<T>::TouchTable(const ContactSettings& contact, const std::vector<Touc
     if (found == kinds.end()) kinds.push_back(&body);
   }
   for (const TouchBody* a : kinds) {
-    self_.push_back(rounded_pair<T>(touch_pair(contact, *a, *a, true)));
-    for (const TouchBody* b : kinds) pairs_.push_back(rounded_pair<T>(touch_pair(contact, *a, *b, false)));
+    self_.push_back(rounded_pair<T>(touch_pair(contact, *a, *a, true), ahead_step));
+    for (const TouchBody* b : kinds)
+      pairs_.push_back(rounded_pair<T>(touch_pair(contact, *a, *b, false), ahead_step));
   }
 }
 
 template <class T>
-BodyContact<T>::BodyContact(const Model& model)
+BodyContact<T>::BodyContact(const Model& model, double ahead_step)
     : surfaces_(touch_surfaces(model)),
-      table_(model.contact, surfaces_.bodies),
+      table_(model.contact, surfaces_.bodies, ahead_step),
       near_(model, surfaces_),
       h_(static_cast<T>(model.simulation.timestep)),
       friction_(static_cast<T>(model.contact.body_friction)),
       timestep_(model.simulation.timestep),
       places_(surfaces_.points.size()),
       place_of_(model.particle_count(), nowhere) {
-  ease_apart(model);
+  ease_apart(model, ahead_step > 0.0);
 }
 
 /// Distances in the initial state, in double precision whatever the solver's.
 template <class T>
-void BodyContact<T>::ease_apart(const Model& model) {
-  if constexpr (std::is_same_v<T, double>) {
+void BodyContact<T>::ease_apart(const Model& model, bool ahead) {
+  if (ahead || !std::is_same_v<T, double>) {
+    const BodyContact<double> fine(model);
+    for (const auto& [point, body, d] : fine.eased()) eased_.push_back({point, body, static_cast<T>(d)});
+  } else if constexpr (std::is_same_v<T, double>) {
     const Field<double> x = field<double>(model.initial_position.list(0, model.initial_position.size()));
     const Field<double> v = Field<double>::Zero(3, x.cols());
     const Particles start = {components(x.data()), components(v.data()), 3};
@@ -85,9 +91,6 @@ void BodyContact<T>::ease_apart(const Model& model) {
       eased.back().d = std::min(eased.back().d, touch.d);
     }
     eased_ = std::move(eased);
-  } else {
-    const BodyContact<double> fine(model);
-    for (const auto& [point, body, d] : fine.eased()) eased_.push_back({point, body, static_cast<T>(d)});
   }
 }
 
@@ -220,9 +223,9 @@ void BodyContact<T>::look(const Encounter& encounter, const TouchConstants<T>& p
   const Vector<T> N = opposing ? over_own<T>(point, [&](std::uint32_t own) { return normals_[own]; })
                                : Vector<T>(Vector<T>::Zero());
   const auto see = [&](std::uint32_t t) { return sight_of<T>(t, surfaces_.triangles[t].side, face(t), P); };
-  T far = std::max(pair.reach, pair.depth);
+  T far = std::max(pair.sight, pair.depth);
   if (std::ranges::binary_search(candidates, hint) && counts(face(hint), opposing, N))
-    far = std::min(far, std::max(pair.reach, see(hint).L));
+    far = std::min(far, std::max(pair.sight, see(hint).L));
   far += T(0.01) * pair.s;
   sights.clear();
   for (const std::uint32_t t : candidates)
@@ -241,7 +244,7 @@ void BodyContact<T>::touch(const Encounter& encounter, std::uint32_t& hint, cons
   const Sight<T>* const first = nearest_of<T>(piece.sights, pair.tie, [](const Sight<T>&) { return true; });
   if (!first) return;
   hint = first->triangle;
-  const auto gap = closed ? closed_gap<T>(*first, pair.reach, pair.depth) : open_gap<T>(*first, pair.reach);
+  const auto gap = closed ? closed_gap<T>(*first, pair.sight, pair.depth) : open_gap<T>(*first, pair.sight);
   if (gap) piece.touches.push_back(contact(encounter, *first, *gap, at));
   if (!closed) return;
   const auto next_side = [&](std::uint32_t least) {
@@ -253,8 +256,8 @@ void BodyContact<T>::touch(const Encounter& encounter, std::uint32_t& hint, cons
   for (std::uint32_t side = next_side(0); side != nowhere; side = next_side(side + 1)) {
     const Sight<T>& seen =
         *nearest_of<T>(piece.sights, pair.tie, [&](const Sight<T>& each) { return each.side == side; });
-    if (straight_in_front<T>(seen, pair.reach))
-      piece.touches.push_back(contact(encounter, seen, *closed_gap<T>(seen, pair.reach, pair.depth), at));
+    if (straight_in_front<T>(seen, pair.sight))
+      piece.touches.push_back(contact(encounter, seen, *closed_gap<T>(seen, pair.sight, pair.depth), at));
   }
 }
 
@@ -275,9 +278,13 @@ Touch<T> BodyContact<T>::contact(const Encounter& encounter, const Sight<T>& see
   made.n = gap.n;
   made.d = gap.d;
   made.reach = reach_of(encounter, pair);
+  made.k = pair.k;
+  made.c = pair.c;
   const auto v = [&](std::uint32_t p) { return at.velocity(p); };
   const T u = dot3<T>(made.n, over_carriers<T>(made, v) - over_corners<T>(made, v));
-  made.push = push_of<T>(pair, made.reach, made.d, u);
+  made.rest = made.k * (made.reach - made.d);
+  if (at_end_) made.rest = made.rest + made.c * u;
+  made.push = push_of<T>(made, u);
   return made;
 }
 
@@ -328,9 +335,8 @@ template <class T>
 T BodyContact<T>::energy() const {
   T sum = T(0);
   for (const Touch<T>& touch : touches_) {
-    const TouchConstants<T>& pair = table_.at(body_of(touch.point), body_of_triangle(touch.triangle));
     const T near = touch.reach - touch.d;
-    if (near > T(0)) sum += T(0.5) * pair.k * near * near;
+    if (near > T(0)) sum += T(0.5) * touch.k * near * near;
   }
   return sum;
 }

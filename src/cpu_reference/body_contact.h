@@ -19,7 +19,7 @@ namespace aspic::reference {
 template <class T>
 class TouchTable {
  public:
-  TouchTable(const ContactSettings& contact, const std::vector<TouchBody>& bodies);
+  TouchTable(const ContactSettings& contact, const std::vector<TouchBody>& bodies, double ahead_step);
   const TouchConstants<T>& at(std::uint32_t point_of, std::uint32_t face_of) const {
     const std::uint32_t a = kind_[point_of], b = kind_[face_of];
     return point_of == face_of ? self_[a] : pairs_[a * self_.size() + b];
@@ -42,8 +42,10 @@ class BodyContact {
     T d;  ///< [m]
   };
 
-  /// Of a model whose bodies_touch(). Bodies that overlap in its initial state are eased apart.
-  explicit BodyContact(const Model& model);
+  /// Of a model whose bodies_touch(). Bodies that overlap in its initial state are eased apart. With an
+  /// `ahead_step` h [s] pushes are those at the end of a step (docs/contact.md, "Implicit Euler"): contacts
+  /// are found from touch_ahead spacings on, and k·h takes the place of the damper.
+  explicit BodyContact(const Model& model, double ahead_step = 0.0);
   BodyContact(const BodyContact&) = delete;
   BodyContact& operator=(const BodyContact&) = delete;
 
@@ -75,6 +77,8 @@ class BodyContact {
     run(pieces_of(encounters_.size()), [&](std::size_t n) { find_in(n, at); });
     return gather();
   }
+  /// With an ahead_step: whether find() looks where the step may end, not where it begins.
+  void set_at_end(bool on) { at_end_ = on; }
   /// Those of find(), ascending by point, body of the triangle, and first contact before second sides.
   std::span<const Touch<T>> touches() const { return touches_; }
   /// The particles that they name, ascending.
@@ -84,6 +88,13 @@ class BodyContact {
   /// `start`: of the step; inverse_mass(particle) [1/kg].
   template <class InverseMass>
   void act(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f) {
+    push(start, inverse_mass, f);
+    if (friction_ > T(0)) spread<T>(touches_, f, [](const Touch<T>& touch) { return touch.rub; });
+  }
+
+  /// The same with pushes alone; friction is found, but not added.
+  template <class InverseMass>
+  void push(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f) {
     spread<T>(touches_, f, [](const Touch<T>& touch) { return Vector<T>(touch.push * touch.n); });
     if (!(friction_ > T(0))) return;
     inverse_mass_.clear();
@@ -93,8 +104,9 @@ class BodyContact {
       v1_.push_back(start.velocity(particles_[n]) + (h_ * inverse_mass_[n]) * f[n]);
     }
     find_friction();
-    spread<T>(touches_, f, [](const Touch<T>& touch) { return touch.rub; });
   }
+  /// μ
+  T friction() const { return friction_; }
 
   /// Ascending by point and body.
   const std::vector<Eased>& eased() const { return eased_; }
@@ -103,7 +115,7 @@ class BodyContact {
   std::uint64_t bytes() const;
 
  private:
-  void ease_apart(const Model& model);
+  void ease_apart(const Model& model, bool ahead);
   void find_candidates(const Particles& start);
   /// What one task of find() works with.
   struct Piece {
@@ -135,6 +147,7 @@ class BodyContact {
   NearTriangles near_;
   T h_, friction_;
   double timestep_;
+  bool at_end_ = false;
   std::vector<Eased> eased_;  // ascending by point and body
   T time_ = T(0);             // since the initial state [s]
   // Of what is near: triangles and where their faces are, points of carriers with their normals, the nearest

@@ -9,26 +9,18 @@
 // 2002), which keeps it symmetric positive definite, while the residual stays that of the true equation. So
 // the method converges to the true solution, linearly where springs are compressed.
 #include <cmath>
+#include <memory>
 #include <utility>
 
+#include "cpu_reference/diagonal_block.h"
 #include "cpu_reference/implicit_ground.h"
 #include "cpu_reference/implicit_newton.h"
+#include "cpu_reference/implicit_touch.h"
 #include "cpu_reference/method.h"
 #include "cpu_reference/reductions.h"
 #include "model/springs.h"
 
 namespace aspic::reference {
-
-/// −h·∂f/∂v' of a spring as seen from one end: H·d = across·d + (along − across)·n(n·d).
-template <class T>
-struct SpringJacobian {
-  T along, across;  ///< [kg]
-  Vector<T> n;      ///< unit vector along the spring
-
-  Vector<T> operator*(const Vector<T>& d) const {
-    return across * d + ((along - across) * dot3<T>(n, d)) * n;
-  }
-};
 
 /// Force on end a and Jacobian of a spring whose vector at the step's end is e and whose relative velocity is
 /// v.
@@ -45,45 +37,6 @@ std::pair<Vector<T>, SpringJacobian<T>> linearised(const SpringConstants<T>& spr
   const T across = s > T(0) ? (h * h) * (s * q) : T(0);
   return {f, {along, across, Vector<T>(q * e)}};
 }
-
-/// The symmetric 3×3 block of one particle on the matrix's diagonal, and the solution of B·z = r by Cramer's
-/// rule.
-template <class T>
-struct DiagonalBlock {
-  T xx, yy, zz, xy, xz, yz;
-
-  explicit DiagonalBlock(T m) : xx(m), yy(m), zz(m), xy(0), xz(0), yz(0) {}
-
-  void add(const SpringJacobian<T>& H) {
-    const Vector<T>& n = H.n;
-    const T w = H.along - H.across;
-    xx += H.across + w * (n.x() * n.x());
-    yy += H.across + w * (n.y() * n.y());
-    zz += H.across + w * (n.z() * n.z());
-    xy += w * (n.x() * n.y());
-    xz += w * (n.x() * n.z());
-    yz += w * (n.y() * n.z());
-  }
-
-  /// The inverse, symmetric as well.
-  DiagonalBlock inverse() const {
-    DiagonalBlock c(T(0));
-    c.xx = yy * zz - yz * yz;
-    c.xy = xz * yz - xy * zz;
-    c.xz = xy * yz - xz * yy;
-    c.yy = xx * zz - xz * xz;
-    c.yz = xy * xz - xx * yz;
-    c.zz = xx * yy - xy * xy;
-    const T d = T(1) / ((xx * c.xx + xy * c.xy) + xz * c.xz);
-    c.xx *= d, c.yy *= d, c.zz *= d, c.xy *= d, c.xz *= d, c.yz *= d;
-    return c;
-  }
-
-  Vector<T> operator*(const Vector<T>& r) const {
-    return {(xx * r.x() + xy * r.y()) + xz * r.z(), (xy * r.x() + yy * r.y()) + yz * r.z(),
-            (xz * r.x() + yz * r.y()) + zz * r.z()};
-  }
-};
 
 /// max(|x|, |y|, |z|)
 template <class T>
@@ -102,14 +55,16 @@ class ImplicitEuler final : public Method<T> {
         model_(model),
         ahead_(dynamics.grounds(), dynamics.contact(), model.contact.model == ContactModel::coulomb),
         limits_(model.simulation.implicit),
-        h_(static_cast<T>(model.simulation.timestep)) {}
+        h_(static_cast<T>(model.simulation.timestep)) {
+    if (bodies_touch(model)) bodies_ = std::make_unique<TouchAhead<T>>(model);
+  }
 
   /// Bytes that the solve holds at most: nine fields and those of two products, a force and two copies of the
   /// diagonal blocks, the ground's reaction on each particle, a Jacobian for each spring, three sums.
   static std::uint64_t bytes(const Model& model) {
     return model.particle_count() *
                (sizeof(T) * (3 * 12 + 3) + 2 * sizeof(DiagonalBlock<T>) + sizeof(GroundReaction<T>)) +
-           spring_count(model) * sizeof(SpringJacobian<T>);
+           spring_count(model) * sizeof(SpringJacobian<T>) + (bodies_touch(model) ? touch_bytes(model) : 0);
   }
 
   /// The equation's solution.
@@ -120,6 +75,8 @@ class ImplicitEuler final : public Method<T> {
   Trial<T> start();
   Trial<T> fall();
   Trial<T> try_step(T lambda, bool onwards);
+  bool touches() const { return touching_; }
+  Trial<T> touch_again(bool from_trial);
   T start_solve();
   bool prescribes() const { return prescribes_; }
   bool interrupted() const { return dynamics_.interrupted(); }
@@ -128,6 +85,18 @@ class ImplicitEuler final : public Method<T> {
   void turn(T beta) { p_ = z_ + beta * p_; }
 
  private:
+  void meet_bodies(const Phase<T>& s);
+  /// Gravity, springs and pulls on a particle where the step begins, found where something asks for them.
+  auto start_force() {
+    return [this](std::uint32_t p) -> Vector<T> {
+      if (start_force_.cols() == 0) start_force_ = dynamics_.force_without_contact(s_->x, s_->v);
+      return start_force_.col(p);
+    };
+  }
+  auto inverse_mass() const {
+    return [this](std::uint32_t p) { return dynamics_.inverse_mass(p); };
+  }
+  bool touch(Field<T>& held, std::vector<DiagonalBlock<T>>& blocks);
   Trial<T> evaluate();
   Field<T> product(const Field<T>& p) const;
   Field<T> precondition(const Field<T>& r) const;
@@ -136,12 +105,15 @@ class ImplicitEuler final : public Method<T> {
   const Dynamics<T>& dynamics_;
   const Model& model_;
   GroundAhead<T> ahead_;
+  std::unique_ptr<TouchAhead<T>> bodies_;  ///< none where none can touch
   SolveLimits<T> limits_;
   T h_;
 
   // Of the step under way.
   const Phase<T>* s_ = nullptr;    ///< where it began
   Field<T> held_;                  ///< contact force of the course model [N]
+  bool touching_ = false;          ///< whether bodies may touch in it
+  Field<T> start_force_;           ///< start_force() [N]
   Field<T> base_, trial_, delta_;  ///< velocities [m/s]: trial = base + λ·δ
   Field<T> r_, z_, p_, q_;         ///< of the linear system; r begins as m·(v − v') + h·f [kg·m/s]
   // At the trial.
@@ -173,6 +145,37 @@ Trial<T> ImplicitEuler<T>::try_step(T lambda, bool onwards) {
   if (onwards) base_ = trial_;
   trial_ = base_ + lambda * delta_;
   return evaluate();
+}
+
+/// Whether bodies may touch in the step from s.
+template <class T>
+void ImplicitEuler<T>::meet_bodies(const Phase<T>& s) {
+  start_force_.resize(3, 0);
+  touching_ = bodies_ && bodies_->start(dynamics_.step(), view_of(s), start_force(), inverse_mass());
+}
+
+/// A second solve, with what touches where the first one ended.
+template <class T>
+Trial<T> ImplicitEuler<T>::touch_again(bool from_trial) {
+  if (!from_trial) trial_ = base_;
+  const Phase<T> end = {s_->x + h_ * trial_, trial_};
+  touching_ = bodies_->search_again(view_of(*s_), view_of(end), start_force(), inverse_mass());
+  return evaluate();
+}
+
+/// Adds contact of bodies at the trial to forces and blocks. Returns whether any acts.
+template <class T>
+bool ImplicitEuler<T>::touch(Field<T>& held, std::vector<DiagonalBlock<T>>& blocks) {
+  const bool acts = bodies_->react([&](std::uint32_t p) { return Vector<T>(trial_.col(p)); });
+  Field<T> force = Field<T>::Zero(3, held.cols());
+  std::vector<DiagonalBlock<T>> own(blocks.size(), DiagonalBlock<T>(T(0)));
+  for (std::size_t n = 0; n < bodies_->particles().size(); ++n) {
+    force.col(bodies_->particles()[n]) = bodies_->force(n);
+    own[bodies_->particles()[n]] = bodies_->block(n);
+  }
+  held += force;
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].add(own[i]);
+  return acts;
 }
 
 template <class T>
@@ -208,12 +211,13 @@ Trial<T> ImplicitEuler<T>::evaluate() {
     blocks[static_cast<std::size_t>(pull.particle)].add(H);
     pull_jacobian_.push_back(H);
   }
+  Field<T> held = held_;
+  bool holds = touching_ && touch(held, blocks);
   r_ = prescribed_ = Field<T>::Zero(3, count);
   preconditioner_.clear();
   preconditioner_.reserve(static_cast<std::size_t>(count));
   ground_.assign(static_cast<std::size_t>(count), {});
   prescribes_ = false;
-  bool holds = false;
   std::vector<T> largest(static_cast<std::size_t>(count), T(0)), squared = largest, falling = largest;
   const Vector<T> fall = h_ * dynamics_.gravity();
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -222,7 +226,7 @@ Trial<T> ImplicitEuler<T>::evaluate() {
       preconditioner_.push_back(block.inverse());
       continue;
     }
-    const Vector<T> total = f.col(i) + held_.col(i), change = trial_.col(i) - s.v.col(i);
+    const Vector<T> total = f.col(i) + held.col(i), change = trial_.col(i) - s.v.col(i);
     const Vector<T> gained = h_ * (dynamics_.inverse_mass(i) * total);
     r_.col(i) = h_ * total - dynamics_.mass(i) * change;
     Vector<T> R = change - gained;
@@ -271,6 +275,13 @@ Field<T> ImplicitEuler<T>::product(const Field<T>& p) const {
     const Eigen::Index i = dynamics_.pulls()[k].particle;
     product.col(i) += pull_jacobian_[k] * Vector<T>(p.col(i));
   }
+  if (touching_) {
+    bodies_->multiply([&](std::uint32_t i) { return Vector<T>(p.col(i)); });
+    Field<T> own = Field<T>::Zero(3, p.cols());
+    for (std::size_t k = 0; k < bodies_->particles().size(); ++k)
+      own.col(bodies_->particles()[k]) = bodies_->product(k);
+    product += own;
+  }
   for (Eigen::Index i = 0; i < p.cols(); ++i) {
     const GroundReaction<T>& ground = ground_[static_cast<std::size_t>(i)];
     product.col(i) = ground.free_product(p.col(i), product.col(i));
@@ -317,6 +328,7 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
   s_ = &s;
   held_ = dynamics_.held_contact_force(s.x, s.v);
   ahead_.start(s.x);
+  meet_bodies(s);
   Field<T> v = solve_step(*this, limits_, report) ? trial_ : base_;
   for (Eigen::Index i = 0; i < v.cols(); ++i) {  // the ground gives way by no tolerance
     if (ground_[static_cast<std::size_t>(i)].freedom != Freedom::all) v.col(i) += prescribed_.col(i);

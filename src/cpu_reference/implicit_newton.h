@@ -65,21 +65,16 @@ void conjugate_gradients(System& system, T forcing, std::uint32_t most, std::uin
   }
 }
 
-/// Solves for v' from the velocity v on. The system offers, besides what conjugate_gradients asks for,
-///   Trial<T> start()  the base and the trial are v
-///   Trial<T> fall()   the trial becomes v + h·g, but v of pinned particles
+/// Newton's method from the trial `at` on. The system offers, besides what conjugate_gradients asks for,
 ///   Trial<T> try_step(T λ, bool onwards)  the trial becomes base + λ·δ; `onwards`: the base becomes the
 ///   trial
 ///                     before that
 /// Returns whether the solution is the last trial; else it is the base.
 template <class T, class System>
-bool solve_step(System& system, const SolveLimits<T>& limits, SolveReport& report) {
-  report = SolveReport{};
-  Trial<T> at = system.start();
-  // In free flight that is the solution: nothing is left to solve.
-  if (!(at.residual <= limits.tolerance) && at.falling < at.merit) at = system.fall();
+bool iterate(System& system, Trial<T> at, const SolveLimits<T>& limits, SolveReport& report) {
   T best = at.residual, forcing = static_cast<T>(first_forcing);
   int without_progress = 0;
+  const std::uint32_t most = report.newton_iterations + limits.newton;
   bool on_ground = at.holds, accepted = true;
   report.end = SolveEnd::not_converged;
   while (true) {
@@ -91,7 +86,7 @@ bool solve_step(System& system, const SolveLimits<T>& limits, SolveReport& repor
       report.end = SolveEnd::stagnated;
       break;
     }
-    if (report.newton_iterations == limits.newton || system.interrupted()) break;
+    if (report.newton_iterations == most || system.interrupted()) break;
     conjugate_gradients(system, forcing, limits.cg, report.cg_iterations);
     ++report.newton_iterations;
     // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down. R bends where a particle meets
@@ -122,6 +117,24 @@ bool solve_step(System& system, const SolveLimits<T>& limits, SolveReport& repor
   // A largest component passes over those that are no numbers; the sum of squares does not.
   report.residual = static_cast<double>(std::isnan(at.merit) ? at.merit : at.residual);
   return accepted;
+}
+
+/// Solves for v' from the velocity v on. The system offers, besides what iterate() asks for,
+///   Trial<T> start()  the base and the trial are v
+///   Trial<T> fall()   the trial becomes v + h·g, but v of pinned particles
+///   bool touches()    whether bodies are near each other in the step
+///   Trial<T> touch_again(bool from_trial)  the trial stays, or becomes the base; bodies touch as found there
+///                     from now on
+/// Returns whether the solution is the last trial; else it is the base.
+template <class T, class System>
+bool solve_step(System& system, const SolveLimits<T>& limits, SolveReport& report) {
+  report = SolveReport{};
+  Trial<T> at = system.start();
+  // In free flight that is the solution: nothing is left to solve.
+  if (!(at.residual <= limits.tolerance) && at.falling < at.merit) at = system.fall();
+  const bool accepted = iterate(system, at, limits, report);
+  if (!system.touches() || system.interrupted()) return accepted;
+  return iterate(system, system.touch_again(accepted), limits, report);
 }
 
 }  // namespace aspic::reference

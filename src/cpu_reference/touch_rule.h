@@ -19,6 +19,7 @@ struct TouchConstants {
   T c;       ///< damping [N·s/m]
   T s;       ///< spacing [m]
   T reach;   ///< ρ [m]
+  T sight;   ///< distance up to which contacts are found [m]: ρ, or more where they are known ahead
   T depth;   ///< D [m]
   T margin;  ///< by which the boxes of candidates are widened [m]
   T tie;     ///< distances that differ by less are equal [m]
@@ -36,6 +37,8 @@ struct Touch {
   Vector<T> n = Vector<T>::Zero();             ///< unit normal towards the point
   T d = T(0);                                  ///< distance [m]
   T reach = T(0);                     ///< where pushes begin [m]: ρ, or less while bodies are eased apart
+  T k = T(0), c = T(0);               ///< of the pair [N/m], [N·s/m]
+  T rest = T(0);                      ///< the push, were there no motion [N]; it may pull
   T push = T(0);                      ///< f [N], ≥ 0
   Vector<T> rub = Vector<T>::Zero();  ///< friction on the point [N]
 };
@@ -54,10 +57,10 @@ auto over_corners(const Touch<T>& touch, const Value& value) {
              touch.weight[4] * value(touch.place[4]));
 }
 
-/// f = max(0, k·(ρ − d) − c·u) with the normal speed u of the point relative to the face.
+/// f = max(0, rest − c·u) with the normal speed u of the point relative to the face.
 template <class T>
-T push_of(const TouchConstants<T>& pair, T reach, T d, T u) {
-  const T f = pair.k * (reach - d) - pair.c * u;
+T push_of(const Touch<T>& touch, T u) {
+  const T f = touch.rest - touch.c * u;
   return f > T(0) ? f : T(0);
 }
 

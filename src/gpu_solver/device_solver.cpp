@@ -49,6 +49,7 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
             Buffer::of(context_, "simulation constants", std::span(&block, 1), gl::BufferKind::uniform));
   ASPIC_CHECK(pulls_.build(context_));
   ASPIC_CHECK(poses_.build(context_, *model_));
+  ASPIC_CHECK(touch_.build(context_, *model_));
   if (const GpuSolver* other = options.share_springs_of) {
     const auto& theirs = other->spring_buffers();
     if (theirs->context == &context_ && theirs->kind == path_.words && same_springs(other->model(), *model_))
@@ -216,6 +217,15 @@ Result<SlicedPass> DeviceSolver::sliced_pass(KernelOptions kernels, std::string_
   }
   ASPIC_TRY(auto made, pass(kernels, path, std::move(bindings)));
   return SlicedPass(std::move(made), items, std::move(windows));
+}
+
+Status DeviceSolver::check_touching() const {
+  if (!touch_.any() || !windowed()) return {};
+  return advised(
+      fail(ErrorCode::scene_rejected,
+           "contact of bodies needs the particles in one block of {} memory, and there are {} of them.",
+           context_.info().renderer, model_->particle_count()),
+      {use_backend("cpu")});
 }
 
 void DeviceSolver::keep_counting() {

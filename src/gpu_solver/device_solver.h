@@ -12,7 +12,7 @@
 #include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
 #include "gpu_solver/step_inputs.h"
-#include "gpu_solver/touch_passes.h"
+#include "gpu_solver/touch_buffers.h"
 #include "gpu_solver/windows.h"
 #include "model/counts.h"
 
@@ -76,6 +76,8 @@ class DeviceSolver : public GpuSolver {
   Result<gl::Buffer> sliced(std::string name, std::uint64_t bytes);
   /// Whether the passes go by windows. Known once all sliced buffers are made.
   bool windowed() const { return largest_sliced_ > context_.info().limits.storage_block_bytes; }
+  /// Error (scene_rejected): bodies touch in a scene that goes by windows.
+  Status check_touching() const;
   void mark(std::size_t kind) const {
     if (profiler_) profiler_->mark(kind);
   }
@@ -105,7 +107,7 @@ class DeviceSolver : public GpuSolver {
   PullBuffer pulls_;
   PoseBuffer poses_;  // of moving terrain
   BallPasses balls_;
-  TouchPasses touch_;  // of bodies, in explicit methods
+  TouchBuffers touch_;  // of bodies
   gl::Buffer simulation_;
 
   std::uint64_t base_step_ = 0;    // step number of the loaded state

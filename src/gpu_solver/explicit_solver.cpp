@@ -6,6 +6,7 @@
 #include "gpu/read_ring.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/queue_depth.h"
+#include "gpu_solver/touch_passes.h"
 #include "model/integrator.h"
 #include "model/springs.h"
 
@@ -74,6 +75,7 @@ class ExplicitSolver final : public DeviceSolver {
   }
 
   const Staged& method_;
+  TouchPasses touch_passes_{touch_};
   Buffer sums_, control_, forces_;
   std::deque<Queue> queues_;
   std::optional<gl::ReadRing> looks_;  // the control words after each queue
@@ -109,12 +111,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   ASPIC_TRY(sums_, sliced("stage sums", keeps_sums(method_) ? state_bytes : 0));
   ASPIC_TRY(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
   looks_.emplace(context_, sizeof(layout::Control));
-  if (bodies_touch(*model_) && windowed())
-    return advised(
-        fail(ErrorCode::scene_rejected,
-             "contact of bodies needs the particles in one block of {} memory, and there are {} of them.",
-             context_.info().renderer, model_->particle_count()),
-        {use_backend("cpu")});
+  ASPIC_CHECK(check_touching());
   fast_ = options.spring_arithmetic == Arithmetic::fast;
   KernelOptions stage_kernels = kernels;
   if (fast_) stage_kernels.defines.push_back({"ASPIC_FAST", "1"});
@@ -133,8 +130,8 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                         seen_by_springs(*springs_)));
   }
   if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
-  ASPIC_CHECK(touch_.build(context_, *model_, kernels, stage_kernels, {constants(), control},
-                           {pulls_.binding(), poses_.binding()}));
+  ASPIC_CHECK(touch_passes_.build(context_, kernels, stage_kernels, {constants(), control},
+                                  {pulls_.binding(), poses_.binding()}));
   if (touch_.any()) stage_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
   const std::uint32_t by_device = context_.info().is_software ? software_run : 1;
   const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
@@ -175,7 +172,7 @@ void ExplicitSolver::dispatch(const std::optional<SlicedPass>& pass, Kind kind,
 void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
   poses_.cover(step_index, 1);
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
-  if (touch_.any()) touch_.queue_start(states_[current_], step_index);
+  if (touch_.any()) touch_passes_.queue_start(states_[current_], step_index);
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
   for (const auto* pass : {&spring_pass_, &lattice_pass_, &particle_pass_})
     if (*pass) (*pass)->program().set(LOCATION_STEP, step_index);
@@ -187,7 +184,7 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
       if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
     constexpr std::uint64_t particle = sizeof(layout::Particle), force = sizeof(layout::vec4);
     const TouchPasses::States touching = {&states_[current_], &states_[stage_state], &states_[out], &sums_};
-    if (touch_.any()) touch_.queue_find(touching, step_index, time_of(step_index));
+    if (touch_.any()) touch_passes_.queue_find(touching, step_index, time_of(step_index));
     const SlicedArray stage = {BINDING_STAGE_STATE, &states_[stage_state], Over::particles, particle};
     const std::array<SlicedArray, 6> arrays = {
         {stage,
@@ -207,7 +204,7 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     const ReadBy after = touch_.any() ? ReadBy(ReadBy::compute_pass) : readers;
     dispatch(lattice_pass_, lattices_kind, arrays, particle_pass_ ? ReadBy::nobody : after);
     dispatch(particle_pass_, particles_kind, arrays, after);
-    if (touch_.any()) touch_.queue_act(touching, step_index, s, readers);
+    if (touch_.any()) touch_passes_.queue_act(touching, step_index, s, readers);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_slot_,

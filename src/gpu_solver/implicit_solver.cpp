@@ -6,11 +6,14 @@
 
 #include "gpu/read_ring.h"
 #include "gpu_solver/device_solver.h"
+#include "gpu_solver/implicit_kernels.h"
+#include "gpu_solver/implicit_touch_passes.h"
 #include "gpu_solver/queue_depth.h"
 
 namespace aspic {
 namespace {
 
+using namespace implicit;
 using gl::Binding;
 using gl::Buffer;
 using gl::ReadBy;
@@ -24,20 +27,6 @@ constexpr std::uint32_t most_solves = 16;
 constexpr std::uint32_t first_rounds = 8, more_rounds = 16;
 /// Rounds queued for one step without a look, at most.
 constexpr std::uint32_t most_queued_rounds = 4096;
-
-enum Kernel : std::size_t { begin, evaluate, apply, update, direction, finish, kernel_count };
-constexpr std::array<KernelRow, kernel_count> implicit_kernels = {
-    {{"compute/implicit_begin.comp", "start of the step"},
-     {"compute/implicit_evaluate.comp", "residual"},
-     {"compute/implicit_apply.comp", "Jacobian times direction"},
-     {"compute/implicit_update.comp", "solution update"},
-     {"compute/implicit_direction.comp", "search direction"},
-     {"compute/implicit_finish.comp", "end of the step, contact"}}};
-
-std::uint64_t solve_bytes(std::uint64_t particles) {
-  const std::uint64_t blocks = (particles + REDUCTION_BLOCK - 1) / REDUCTION_BLOCK;
-  return sizeof(layout::Solve) + blocks * sizeof(layout::vec4);
-}
 
 class ImplicitSolver final : public DeviceSolver {
  public:
@@ -68,6 +57,12 @@ class ImplicitSolver final : public DeviceSolver {
   void submit(std::uint32_t rounds);
   Status take_look();
   Status repeat_balls();
+  void wait_for_lists();
+  Status make_lists();
+  bool eases() const { return touch_.any() && time() < touch_.eased_until(); }
+  /// Of the state last seen, since the initial state [s], as in src/cpu_reference/body_contact.cpp.
+  double time() const { return static_cast<double>(base_step_ + solve_.step) * model_->simulation.timestep; }
+  void begin_step() const;
   void forget_queues();
   void predict_state();
   /// More than a step can take.
@@ -76,6 +71,7 @@ class ImplicitSolver final : public DeviceSolver {
   void write_solve();
   void take_statistics(const layout::Solve& before);
 
+  ImplicitTouchPasses touch_passes_{touch_};
   Buffer trial_, search_, own_, solve_buffer_;
   std::vector<SlicedPass> passes_;        // by Kernel
   std::vector<SlicedArray> arrays_;       // of every pass
@@ -98,7 +94,9 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   ASPIC_TRY(own_, sliced("solver vectors", OWN_VECTORS * vectors));
   // In windows, the other data that neighbours need goes with it (shaders/compute/implicit.glsl).
   const std::uint64_t search_bytes = (windowed() ? 2 : 1) * sizeof(layout::vec4);
-  ASPIC_TRY(search_, sliced("search direction", particles * search_bytes));
+  const std::uint64_t touch_vectors = touch_.any() ? TOUCH_VECTORS * vectors : 0;
+  ASPIC_TRY(search_, sliced("search direction", particles * search_bytes + touch_vectors));
+  ASPIC_CHECK(check_touching());
   ASPIC_TRY(solve_buffer_, Buffer::create(context_, "solve control", solve_bytes(particles)));
   looks_.emplace(context_, sizeof(layout::Solve));
   const std::vector<Binding> bindings = {
@@ -112,8 +110,17 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
              {BINDING_SEARCH, &search_, Over::particles, search_bytes},
              {BINDING_INCIDENT, &springs_->incident, Over::words, sizeof(std::uint32_t)},
              {BINDING_OWN, &own_, Over::items, own}};
+  KernelOptions own_kernels = kernels;
+  if (touch_.any()) own_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
+  ASPIC_CHECK(touch_passes_.build(context_, kernels,
+                                  {constants(),
+                                   {BINDING_SOLVE, &solve_buffer_},
+                                   {BINDING_STATE_A, &states_[0]},
+                                   {BINDING_STATE_B, &states_[1]},
+                                   {BINDING_TRIAL, &trial_},
+                                   {BINDING_SEARCH, &search_}}));
   for (const KernelRow& row : implicit_kernels) {
-    ASPIC_TRY(auto made, sliced_pass(kernels, row.path, bindings, model_->particle_count(),
+    ASPIC_TRY(auto made, sliced_pass(own_kernels, row.path, bindings, model_->particle_count(),
                                      {.item = own, .particle = particle, .word = sizeof(std::uint32_t)},
                                      seen_by_particles(*model_, *springs_)));
     passes_.push_back(std::move(made));
@@ -144,7 +151,8 @@ std::uint64_t ImplicitSolver::most_rounds() const {
   const ImplicitSettings& implicit = model_->simulation.implicit;
   const auto iterations = static_cast<std::uint64_t>(implicit.newton_iterations),
              rounds = static_cast<std::uint64_t>(implicit.cg_iterations) + max_halvings + 3;
-  return (iterations + 1) * rounds;
+  const std::uint64_t solves = touch_.any() ? 2 : 1;
+  return solves * (iterations + 1) * rounds;
 }
 
 void ImplicitSolver::write_solve() {
@@ -166,7 +174,10 @@ void ImplicitSolver::take_statistics(const layout::Solve& before) {
 
 void ImplicitSolver::queue_rounds(std::uint32_t rounds) const {
   for (std::uint32_t r = 0; r < rounds; ++r) {
-    for (const Kernel kernel : {evaluate, apply, update, direction}) dispatch(kernel);
+    if (touch_.acts()) touch_passes_.queue_forces(static_cast<float>(time()));
+    dispatch(evaluate);
+    if (touch_.acts()) touch_passes_.queue_product();
+    for (const Kernel kernel : {apply, update, direction}) dispatch(kernel);
   }
   dispatch(finish, balls_.any() ? ReadBy::compute_pass : anyone);
   balls_.queue(states_[0], states_[1], 0, 0, anyone);
@@ -216,16 +227,22 @@ Status ImplicitSolver::carry_out(std::uint64_t steps, bool wait) {
 /// Polls the device, or queues missing rounds or new steps; returns how many new steps are queued.
 Result<std::uint32_t> ImplicitSolver::work_on(std::uint64_t steps, bool must) {
   std::uint32_t queued = 0;
-  if (!queues_.empty() && (must || looks_->ready())) {
+  // While bodies are eased apart, a step's passes are told its time.
+  if (!queues_.empty() && (must || eases() || looks_->ready())) {
     ASPIC_CHECK(take_look());
   } else if (queues_.empty() && is_behind()) {
     if (queued_rounds_ > most_rounds()) {
       unusable_ = idle_device(context_, *model_, queued_rounds_ * kernel_count);
       return *unusable_;
     }
+    ASPIC_CHECK(make_lists());
     queue_more();
   } else {
-    queued = queue_steps(static_cast<std::uint32_t>(std::min<std::uint64_t>(steps, depth_.next())));
+    ASPIC_CHECK(make_lists());
+    std::uint64_t worth =
+        touch_.any() ? std::min<std::uint64_t>(depth_.next(), touch_.patience()) : depth_.next();
+    if (eases()) worth = 1;
+    queued = queue_steps(static_cast<std::uint32_t>(std::min(steps, worth)));
     if (queued == 0) ASPIC_CHECK(take_look());  // the table of poses has no room
   }
   return queued;
@@ -252,11 +269,35 @@ std::uint32_t ImplicitSolver::queue_steps(std::uint32_t wanted) {
   }
   const std::uint32_t rounds = std::min(rounds_wanted(), round_depth_.next());
   for (std::uint32_t n = 0; n < steps; ++n) {
-    dispatch(begin);
+    begin_step();
     queue_rounds(rounds);
   }
   submit(rounds);
   return steps;
+}
+
+void ImplicitSolver::begin_step() const {
+  if (touch_.any()) touch_passes_.queue_start();
+  if (touch_.any()) passes_[begin].program().set(LOCATION_TOUCH_COUNT, touch_.encounter_count());
+  dispatch(begin);
+}
+
+/// Steps wait for lists of what is near that hold; nothing is queued.
+void ImplicitSolver::wait_for_lists() {
+  forget_queues();
+  touch_.forget();
+  solve_.stale = 0;
+  solve_.phase = PHASE_BEGIN;
+}
+
+/// What is near bodies in the state last seen. Nothing may be queued if the lists do not hold.
+Status ImplicitSolver::make_lists() {
+  if (touch_.fresh()) return {};
+  ASPIC_CHECK(touch_.refresh(states_[solve_.parity]));
+  search_.clear();  // only listed particles write there
+  solve_.target_step = target_;
+  write_solve();
+  return {};
 }
 
 /// Queues the rounds that steps of earlier queues still need.
@@ -268,7 +309,7 @@ void ImplicitSolver::queue_more() {
     ++n;
   }
   for (; n != target_; ++n) {
-    dispatch(begin);
+    begin_step();
     queue_rounds(rounds);
   }
   submit(rounds);
@@ -311,7 +352,9 @@ Status ImplicitSolver::take_look() {
   depth_.took(ended, seconds);
   round_depth_.took(std::max(worked, 1u), seconds);
   if (ended > 0) queued_rounds_ = 0;
+  if (touch_.any()) touch_.held(ended);
   if (solve_.full != 0) return repeat_balls();
+  if (solve_.stale != 0) wait_for_lists();
   if (solve_.phase == PHASE_HALTED) {
     forget_queues();
     target_ = solve_.step;

@@ -17,12 +17,12 @@ static_assert(sizeof(BallTouches) == 32 && offsetof(BallTouches, items) == 28);
 static_assert(sizeof(BallItem) == 128 && offsetof(BallItem, acts) == 32 && offsetof(BallItem, linear) == 96);
 static_assert(sizeof(BallWork) == 64 && offsetof(BallWork, word_groups) == 16);
 static_assert(sizeof(TouchEncounter) == 80 && offsetof(TouchEncounter, carrier_weight0) == 36);
-static_assert(sizeof(TouchRecord) == 64 && sizeof(TouchParticle) == 32);
+static_assert(sizeof(TouchRecord) == 96 && sizeof(TouchParticle) == 32);
 static_assert(sizeof(BallBody) == 16 && offsetof(BallBody, launch_step) == 8);
 static_assert(offsetof(Simulation, ball_count) == 116 && offsetof(Simulation, ball_restitution) == 128);
 static_assert(sizeof(Stage) == 16 && sizeof(Control) == 32 && offsetof(Control, passes) == 16);
 static_assert(sizeof(Pull) == 32 && offsetof(Pull, stiffness) == 16 && offsetof(Pull, particle) == 24);
-static_assert(sizeof(Solve) == 176 && offsetof(Solve, lambda) == 64 && offsetof(Solve, converged) == 120 &&
+static_assert(sizeof(Solve) == 192 && offsetof(Solve, lambda) == 64 && offsetof(Solve, converged) == 120 &&
               offsetof(Solve, moved) == 160);
 static_assert(sizeof(Terrain) == 80 && offsetof(Terrain, mass) == 48 && offsetof(Terrain, shape) == 64);
 static_assert(offsetof(Simulation, epsilon) == 16 && offsetof(Simulation, particle_count) == 32);

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "cpu_reference/body_contact.h"
+#include "model/integrator.h"
 
 namespace aspic {
 namespace {
@@ -26,10 +27,20 @@ Status too_many(std::size_t count, std::string_view of, std::size_t most) {
 }  // namespace
 
 TouchLists::TouchLists(const Model& model)
-    : surfaces_(touch_surfaces(model)), contact_(model.contact), near_(model, surfaces_) {
+    : surfaces_(touch_surfaces(model)),
+      contact_(model.contact),
+      near_(model, surfaces_),
+      ahead_step_(row_of(model.simulation.integrator).staged() ? 0.0 : model.simulation.timestep) {
   const reference::BodyContact<double> contact(model);
   for (const auto& [point, body, d] : contact.eased())
     starts_.push_back({point, body, static_cast<float>(d)});
+  // Pushes begin at d₀ + s·t, and at ρ at most.
+  for (const auto& [point, body, d] : contact.eased()) {
+    const TouchPair pair = touch_pair(contact_, surfaces_.bodies[body_of(point)], surfaces_.bodies[body],
+                                      body_of(point) == body);
+    // A little longer: rounding decides nothing afterwards.
+    eased_until_ = std::max(eased_until_, 1.001 * (pair.reach - d) / pair.spacing + 1e-3);
+  }
 }
 
 std::vector<layout::uvec4> TouchLists::triangles() const {
@@ -49,7 +60,8 @@ layout::TouchEncounter TouchLists::encounter_of(const reference::Encounter& near
   const TouchPoint& point = surfaces_.points[near.point];
   const std::uint32_t own = body_of(near.point);
   const TouchBody &points = surfaces_.bodies[own], &faces = surfaces_.bodies[near.body];
-  const TouchPair pair = touch_pair(contact_, points, faces, own == near.body);
+  TouchPair pair = touch_pair(contact_, points, faces, own == near.body);
+  if (ahead_step_ > 0.0) pair = seen_ahead(pair, ahead_step_);
   layout::TouchEncounter made{};
   made.carrier0 = point.carrier[0];
   made.carrier1 = point.carrier[1];
@@ -69,7 +81,7 @@ layout::TouchEncounter TouchLists::encounter_of(const reference::Encounter& near
   made.depth = static_cast<float>(pair.depth);
   made.margin = static_cast<float>(pair.margin);
   made.tie = static_cast<float>(2e-6 * pair.spacing);
-  made.far_away = std::max(made.reach, made.depth) + 0.01f * made.spacing;
+  made.sight = static_cast<float>(pair.sight);
   made.start_distance = nowhere_near;
   const auto key = [](const auto& of) { return std::tuple(of.point, of.body); };
   const auto start = std::ranges::lower_bound(starts_, key(near), {}, key);

@@ -31,6 +31,8 @@ class TouchLists {
   std::span<const layout::TouchParticle> listed() const { return listed_; }
   /// Bits of the places of all particles of surfaces; w: which particle.
   std::span<const layout::uvec4> places() const { return built_; }
+  /// Until when since the initial state bodies that overlapped in it are eased apart [s]; 0 if none did.
+  double eased_until() const { return eased_until_; }
   /// How far a particle may move from there [m].
   double leeway() const { return near_.leeway(); }
 
@@ -46,6 +48,8 @@ class TouchLists {
   TouchSurfaces surfaces_;
   ContactSettings contact_;
   reference::NearTriangles near_;
+  double ahead_step_;  // of implicit Euler; else 0 [s]
+  double eased_until_ = 0.0;
   struct Start {
     std::uint32_t point, body;
     float distance;

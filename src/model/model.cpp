@@ -64,10 +64,6 @@ Result<Model> build_model(const ModelSettings& settings) {
         return fail(added.error(), "{}[{}].{}", body.list.key, i, added.error().what);
     }
   }
-  if (bodies_touch(model) && !row_of(model.simulation.integrator).staged())
-    return fail(ErrorCode::scene_rejected,
-                "contact of bodies needs an explicit integrator: choose another than {}, or none of it",
-                name_of(model.simulation.integrator));
   return model;
 }
 

@@ -135,8 +135,15 @@ TouchPair touch_pair(const ContactSettings& contact, const TouchBody& point_of, 
   pair.spacing = std::min(point_of.spacing, face_of.spacing);
   // Nothing inside an open surface pushes back what has passed its reach.
   pair.reach = (face_of.closed ? 1.0 : 2.5) * contact.body_gap * pair.spacing;
+  pair.sight = pair.reach;
   pair.depth = (same_body ? 0.5 : 1.0) * pair.spacing;
   pair.margin = std::max(pair.depth, pair.reach) + 0.5 * pair.spacing;
+  return pair;
+}
+
+TouchPair seen_ahead(TouchPair pair, double h) {
+  pair.damping = pair.stiffness * h;
+  pair.sight = std::max(pair.reach, touch_ahead * pair.spacing);
   return pair;
 }
 

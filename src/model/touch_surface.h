@@ -68,11 +68,19 @@ struct TouchPair {
   double damping = 0.0;    ///< c [N·s/m]
   double spacing = 0.0;    ///< s [m]
   double reach = 0.0;      ///< ρ [m]: where pushes begin
+  double sight = 0.0;      ///< up to where contacts are found [m]
   double depth = 0.0;      ///< D [m]: where they end
   double margin = 0.0;     ///< by which the boxes of candidates are widened [m]
 };
 TouchPair touch_pair(const ContactSettings& contact, const TouchBody& point_of, const TouchBody& face_of,
                      bool same_body);
+
+/// Distance, in spacings, from which on implicit Euler knows of a contact at the start of a step.
+inline constexpr double touch_ahead = 0.4;
+
+/// The same pair where pushes are those at the end of a step h [s], k·(ρ − d − h·u): k·h is the damping, and
+/// contacts are found from touch_ahead on.
+TouchPair seen_ahead(TouchPair pair, double h);
 
 /// Least distance, in spacings and at rest, of a point and a triangle's corners for them to touch within one
 /// body.

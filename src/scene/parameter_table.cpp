@@ -75,12 +75,9 @@ Rows contact_rows() {
       row("contact.ball-friction", "", friction, FIELD(model.contact.ball_friction),
           "Friction coefficient between balls, and between balls and particles."),
       row("contact.spin", FIELD(model.contact.spin), "Whether friction makes balls rotate."),
-      fixed(row("contact.bodies", FIELD(model.contact.bodies),
-                "Whether cubes and cloths touch each other; for explicit integrators.")),
-      fixed(
-          row("contact.self", FIELD(model.contact.self),
-              "Whether a cube or cloth touches itself, where parts meet that are apart at rest; for explicit "
-              "integrators.")),
+      fixed(row("contact.bodies", FIELD(model.contact.bodies), "Whether cubes and cloths touch each other.")),
+      fixed(row("contact.self", FIELD(model.contact.self),
+                "Whether a cube or cloth touches itself, where parts meet that are apart at rest.")),
       row("contact.body-friction", "", friction, FIELD(model.contact.body_friction),
           "Friction coefficient between bodies that touch."),
       row("contact.body-gap", "", {0.0, 1.0, true}, FIELD(model.contact.body_gap),

@@ -168,20 +168,6 @@ void check_boxes(const Scene& scene, Complaints& complaints) {
   }
 }
 
-/// Contact of bodies is for explicit methods.
-void check_contact(const Scene& scene, Complaints& complaints) {
-  const ContactSettings& contact = scene.model.contact;
-  const Integrator integrator = scene.model.simulation.integrator;
-  if (row_of(integrator).staged()) return;
-  for (const auto& [asked, key] : {std::pair(contact.bodies, "bodies"), std::pair(contact.self, "self")}) {
-    if (!asked) continue;
-    complaints.push_back({{fmt::format("'contact.{}' needs an explicit integrator, and this one is {}", key,
-                                       name_of(integrator))},
-                          fmt::format("contact.{}", key),
-                          "simulation.integrator"});
-  }
-}
-
 void check_camera(const Scene& scene, Complaints& complaints) {
   const CameraSettings& camera = scene.view.camera;
   if (length(camera.position - camera.target) > 0.0) return;
@@ -258,7 +244,6 @@ std::vector<SceneComplaint> check_scene(const Scene& scene, std::optional<std::u
   check_bodies(scene, complaints);
   check_names(scene, complaints);
   check_materials(scene, complaints);
-  check_contact(scene, complaints);
   if (!legal) return complaints;
   // These compute with the numbers.
   check_particles(scene, complaints);

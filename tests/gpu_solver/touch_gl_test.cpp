@@ -1,4 +1,4 @@
-// Contact of bodies on the device: the reference's bits for every explicit method and force path, while lists
+// Contact of bodies on the device: the reference's bits for every method and force path, while lists
 // are made again, with balls among the bodies, from a state in mid-contact on, and without what is asked for.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -53,6 +53,53 @@ TEST_F(Touching, HasTheReferencesBitsUnderEveryMethodAndOnEveryPath) {
     settings.contact.bodies = false;
     EXPECT_FALSE(by_reference(test::build(settings), 70) == expected) << "nothing touches";
   }
+}
+
+// Few steps, since they are long; what moves fast wants other lists soon.
+TEST_F(Touching, HasTheReferencesBitsUnderImplicitEulerOnEveryPath) {
+  for (const ForcePathRow& path : force_paths()) {
+    if (!path.implicit) continue;
+    for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
+      SCOPED_TRACE(fmt::format("{}, {}", path.name, name_of(contact)));
+      ModelSettings settings = pile(Integrator::implicit_euler, contact);
+      settings.simulation.timestep = 0.005;
+      const Model model = test::build(settings);
+      const State expected = by_reference(model, 30);
+      EXPECT_EQ(by_device(model, 30, path.path), expected);
+      settings.contact.bodies = false;
+      EXPECT_FALSE(by_reference(test::build(settings), 30) == expected) << "nothing touches";
+    }
+  }
+}
+
+// Bodies that overlap at the start, without friction; then states in mid-contact, other constants, and steps
+// asked for one by one.
+TEST_F(Touching, IsSolvedFromAnywhere) {
+  ModelSettings settings = pile(Integrator::implicit_euler, ContactModel::coulomb);
+  settings.simulation.timestep = 0.005;
+  settings.contact.self = true;
+  settings.contact.body_friction = 0.0;
+  settings.cubes[1].position.y -= 0.3;
+  const Model model = test::build(settings);
+  EXPECT_EQ(by_device(model, 20), by_reference(model, 20));
+  settings.contact.body_gap = 0.15;
+  settings.contact.body_friction = 0.8;
+  const SharedModel other = shared(test::build(settings));
+  Inputs inputs;
+  inputs.pulls.push_back({30, {0.0, 2.0, 1.0}, 300.0, 10.0});
+  inputs.pinned.push_back(40);
+  const auto expected = std::move(*make_reference_solver(model, Precision::single));
+  const auto solver = gpu(model);
+  const State start = by_reference(model, 30);
+  for (Solver* const each : {expected.get(), static_cast<Solver*>(solver.get())}) {
+    ASSERT_TRUE(each->load(start).ok());
+    for (int n = 0; n < 5; ++n) ASSERT_TRUE(each->advance(1).ok());
+    ASSERT_TRUE(each->set_constants(other).ok());
+    ASSERT_TRUE(each->advance(15).ok());
+    ASSERT_TRUE(each->set_inputs(inputs).ok());
+    ASSERT_TRUE(each->advance(15).ok());
+  }
+  EXPECT_EQ(*solver->state(), *expected->state());
 }
 
 TEST_F(Touching, HasTheReferencesBitsOfBodiesThatTouchThemselvesWithoutFriction) {

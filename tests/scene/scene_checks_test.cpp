@@ -102,23 +102,6 @@ TEST(CheckScene, FindsWhatOnlyTheWholeShows) {
   EXPECT_EQ(complaints[0].message, "a bowl has no 'normal'; its geometry is centre or radius");
 }
 
-TEST(CheckScene, RefusesContactOfBodiesToMethodsThatAreSolved) {
-  Scene scene;
-  scene.model.cubes.resize(2);
-  scene.model.contact.bodies = scene.model.contact.self = true;
-  for (const IntegratorRow& row : integrator_table) {
-    scene.model.simulation.integrator = row.integrator;
-    const auto complaints = check_scene(scene);
-    if (row.staged()) {
-      EXPECT_TRUE(complaints.empty()) << row.name;
-      continue;
-    }
-    ASSERT_THAT(paths_of(complaints), ElementsAre("contact.bodies", "contact.self")) << row.name;
-    EXPECT_EQ(complaints[0].other, "simulation.integrator");
-    EXPECT_THAT(complaints[0].message, HasSubstr("needs an explicit integrator"));
-  }
-}
-
 TEST(CheckScene, FindsASceneInWhichNothingMoves) {
   Scene scene;
   scene.model.terrain.emplace_back();

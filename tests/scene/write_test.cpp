@@ -108,9 +108,6 @@ TEST(Write, RoundTripsRandomScenes) {
         if (applies(p, scene, i) && !left_out) p.set(scene, i, random_value(p, random));
       }
     }
-    // Contact of bodies is for explicit methods.
-    if (!row_of(scene.model.simulation.integrator).staged())
-      scene.model.contact.bodies = scene.model.contact.self = false;
     // Corners are drawn apart from each other; a box has them in order.
     for (LauncherSettings& launcher : scene.model.launchers) {
       for (BoxSettings* box : {&launcher.from, &launcher.towards}) {

@@ -140,7 +140,8 @@ const std::vector<KernelVariant>& kernel_variants() {
     // Bodies that touch, on every path and with more than one stage.
     variants.add_paths("plane, struck by a cube",
                        struck(with_net(cube_on(Integrator::explicit_euler, plane))), exact);
-    variants.add("plane, struck by a cube", struck(cube_on(Integrator::midpoint, plane)), exact);
+    for (const Integrator method : {Integrator::midpoint, Integrator::implicit_euler})
+      variants.add("plane, struck by a cube", struck(cube_on(method, plane)), exact);
     ModelSettings balls = with_balls(cube_on(Integrator::explicit_euler, plane));
     for (const TerrainShapeRow& shape : terrain_shapes) balls.terrain.emplace_back().shape = shape.value;
     variants.add("all terrains, with balls", balls, exact);

@@ -1,0 +1,54 @@
+// Implicit Euler: what the contacts of an encounter do at the trial velocities, and their part of the matrix:
+// src/cpu_reference/implicit_touch.h.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/implicit_control.glsl"
+#include "compute/touch.glsl"
+
+layout(location = LOCATION_TOUCH_NUMBER) uniform float friction;  // μ
+
+layout(std430, binding = BINDING_TRIAL) restrict readonly buffer Trial { vec4 trial[]; };
+
+vec3 velocity(uint i) { return trial[i].xyz; }
+
+bool react(TouchEncounter of, uint record) {
+  TouchRecord contact = records[record];
+  uvec4 t = contact.corner;
+  precise vec3 own = over_carriers(of, velocity(of.carrier0), velocity(of.carrier1));
+  precise vec3 other = over_corners(contact.share.xyz, velocity(t.x), velocity(t.y), velocity(t.z));
+  precise vec3 relative = own - other;
+  precise vec3 n = contact.normal.xyz;
+  precise float stiffness = time_step * of.touch_damping;
+  precise float u = dot3(n, relative);
+  precise float push = push_of(of, contact.rub.w, u);
+  precise vec3 slip = relative - u * n;
+  precise vec3 p = contact.rub.xyz - of.touch_damping * slip;
+  precise float size = norm3(p);
+  precise float cone = friction * contact.normal.w;
+  precise float across = stiffness;
+  precise vec3 turn = vec3(0.0);
+  if (!(cone > 0.0)) {
+    p = vec3(0.0);
+    across = 0.0;
+  } else if (size > cone) {
+    precise float share = exact_div(cone, size);
+    turn = exact_div(1.0, size) * p;
+    p = share * p;
+    across = share * stiffness;
+  }
+  precise vec3 force = p + push * n;
+  precise float along = push > 0.0 ? stiffness : 0.0;
+  records[record].answer = vec4(force, along);
+  records[record].turn = vec4(turn, across);
+  return along > 0.0 || across > 0.0;
+}
+
+void main() {
+  uint n = item_index();
+  uint phase = enter();
+  if (n >= touch_count || (phase != PHASE_TOUCH && phase != PHASE_EVALUATE) || solve.touching == 0u) return;
+  uint first = first_record(n), end = first + records[first].corner.w;
+  bool acts = false;
+  for (uint r = first; r < end; ++r) acts = react(encounters[n], r) || acts;
+  if (acts) atomicMax(solve.ground, 1u);
+}

@@ -1,0 +1,21 @@
+// Implicit Euler: the friction that contacts of an encounter begin with.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/implicit_control.glsl"
+#include "compute/touch.glsl"
+
+layout(location = LOCATION_TOUCH_NUMBER) uniform float friction;  // μ
+
+layout(std430, binding = BINDING_SEARCH) restrict readonly buffer Search { vec4 search[]; };
+
+vec3 part(uint i) { return vec3(search[i].w); }
+vec3 end_velocity(uint i) { return search[i].xyz; }
+#include "compute/touch_friction.glsl"
+
+void main() {
+  uint n = item_index();
+  if (n >= touch_count || enter() != PHASE_TOUCH) return;
+  uint first = first_record(n), end = first + records[first].corner.w;
+  for (uint r = first; r < end; ++r)
+    if (records[r].normal.w > 0.0) records[r].rub.xyz = friction_of(encounters[n], records[r]);
+}

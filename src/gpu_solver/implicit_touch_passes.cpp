@@ -1,0 +1,64 @@
+#include "gpu_solver/implicit_touch_passes.h"
+
+#include <string>
+#include <vector>
+
+namespace aspic {
+namespace {
+
+using gl::Binding;
+
+/// By ImplicitTouchPasses::Kernel; which of them have a number, LOCATION_TOUCH_NUMBER.
+constexpr const char* names[] = {"moved", "find", "push", "rub", "react", "gather", "multiply", "product"};
+constexpr bool has_number[] = {true, true, false, true, true, false, false, false};
+
+}  // namespace
+
+Status ImplicitTouchPasses::build(gl::Context& context, const KernelOptions& kernels,
+                                  const Surroundings& surroundings) {
+  if (!bodies_.any()) return {};
+  const auto& [constants, solve, a, b, trial, search] = surroundings;
+  const TouchBuffers& t = bodies_;
+  const std::vector<Binding> own[kernel_count] = {
+      {a, b, t.places()},
+      {a, b, trial, t.triangles(), t.encounters(), t.words(), t.records()},
+      {search, t.listed(), t.encounters(), t.words(), t.records()},
+      {search, t.encounters(), t.records()},
+      {trial, t.encounters(), t.records()},
+      {search, t.listed(), t.encounters(), t.words(), t.records()},
+      {search, t.encounters(), t.records()},
+      {search, t.listed(), t.encounters(), t.words(), t.records()}};
+  for (std::size_t k = 0; k < kernel_count; ++k) {
+    const std::string path = std::string("compute/implicit_touch_") + names[k] + ".comp";
+    ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, path, kernels.defines));
+    std::vector<Binding> bindings = own[k];
+    bindings.push_back(constants);
+    bindings.push_back(solve);
+    passes_[k].emplace(*programs_[k], std::move(bindings), gl::ReadBy::compute_pass);
+  }
+  return {};
+}
+
+void ImplicitTouchPasses::run(Kernel kernel, std::uint32_t items, float number) const {
+  programs_[kernel]->set(LOCATION_TOUCH_COUNT, items);
+  if (has_number[kernel]) programs_[kernel]->set(LOCATION_TOUCH_NUMBER, number);
+  passes_[kernel]->dispatch_for(items);
+}
+
+void ImplicitTouchPasses::queue_forces(float time) const {
+  const auto friction = static_cast<float>(bodies_.model().contact.body_friction);
+  run(find, bodies_.encounter_count(), time);
+  if (friction > 0.0f) {
+    run(push, bodies_.listed_count());
+    run(rub, bodies_.encounter_count(), friction);
+  }
+  run(react, bodies_.encounter_count(), friction);
+  run(gather, bodies_.listed_count());
+}
+
+void ImplicitTouchPasses::queue_product() const {
+  run(multiply, bodies_.encounter_count());
+  run(product, bodies_.listed_count());
+}
+
+}  // namespace aspic
