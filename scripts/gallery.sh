@@ -45,6 +45,9 @@ draw beside-four 1.5 cube-plane --beside integrator=implicit-euler --beside h=0.
 draw cube-torus 0.95 cube-torus
 draw cube-hole 1.3 cube-hole
 draw elevator 2 elevator
+draw cubes-stack 6 cubes-stack
+draw heap 3 heap
+draw squeeze 2 squeeze
 draw ball-pit 2.2 ball-pit
 draw curtain 1.25 curtain
 draw flag 2.25 flag

@@ -89,7 +89,7 @@ struct ContactSettings {
   double ball_restitution = 1.0;               ///< 0…1
   double ball_friction = 0.3;                  ///< ≥ 0
   bool spin = true;                            ///< whether friction makes balls rotate
-  bool bodies = false;                         ///< whether bodies touch each other (docs/contact.md)
+  bool bodies = true;                          ///< whether bodies touch each other (docs/contact.md)
   bool self = false;                           ///< whether a body touches itself
   double body_friction = 0.3;                  ///< μ between bodies, ≥ 0
   double body_gap = 0.1;                       ///< ρ, where pushes begin, in spacings, > 0 … 1

@@ -12,7 +12,7 @@ layout(std430, binding = BINDING_TRIAL) restrict readonly buffer Trial { vec4 tr
 layout(std430, binding = BINDING_TOUCH_TRIANGLES) restrict readonly buffer Triangles { uvec4 triangles[]; };
 layout(std430, binding = BINDING_TOUCH_WORDS) restrict readonly buffer Words { uint words[]; };
 
-bool second_solve;
+bool second_solve = false;
 bool at_end() { return second_solve; }
 vec3 start_place(uint i) { return state(i).position.xyz; }
 vec3 stage_velocity(uint i) { return trial[i].xyz; }  // v where the step begins

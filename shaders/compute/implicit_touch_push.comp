@@ -13,7 +13,7 @@ void main() {
   if (n >= touch_count || enter() != PHASE_TOUCH) return;
   TouchParticle own = listed[n];
   uint i = own.listed;
-  vec4 start = search[TOUCH_AT(TOUCH_START_FORCE, i)];
+  precise vec4 start = search[TOUCH_AT(TOUCH_START_FORCE, i)];
   precise vec3 f = start.xyz;
   precise float S = 0.0;
   FOR_CONTACTS(own.own_first, own.own_count) {

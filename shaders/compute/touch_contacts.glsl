@@ -20,7 +20,7 @@ void add(Looker p, uint record, uint k, vec4 gap, vec3 at) {
   precise vec3 relative = own - other;
   precise float u = dot3(gap.xyz, relative);
   precise float rest = rest_of(p.of, gap.w, u);
-  vec4 normal = vec4(gap.xyz, push_of(p.of, rest, u));
+  precise vec4 normal = vec4(gap.xyz, push_of(p.of, rest, u));
   records[record] = TouchRecord(normal, vec4(0.0, 0.0, 0.0, rest), uvec4(t.xyz, 0u), vec4(share, 0.0), vec4(0.0), vec4(0.0));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "cpu_parallel/contact_pieces.h"
 
@@ -17,12 +18,30 @@ constexpr std::size_t piece_size = 1024;
 constexpr std::size_t least_planes = 24;
 /// Of a task of a body with bands, as many particles as the springs reach that many times.
 constexpr std::size_t least_reaches = 12;
+/// Bodies whose boxes are compared pair by pair, at most.
+constexpr std::size_t most_boxes = 64;
 
 /// Calls f(part) for parts of a range of at most `size`.
 template <class F>
 void for_parts(Range range, std::size_t size, const F& f) {
   for (std::size_t at = 0; at < range.count; at += size)
     f(Range{range.first + at, std::min(size, range.count - at)});
+}
+
+/// Around both.
+Box around(Box a, const Box& b) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    a.min[c] = std::min(a.min[c], b.min[c]);
+    a.max[c] = std::max(a.max[c], b.max[c]);
+  }
+  return a;
+}
+
+/// Whether two boxes are less than `margin` [m] apart, or one of them holds numbers that are none.
+bool meet(const Box& a, const Box& b, float margin) {
+  for (std::size_t c = 0; c < 3; ++c)
+    if (a.min[c] > b.max[c] + margin || b.min[c] > a.max[c] + margin) return false;
+  return true;
 }
 
 reference::ParticleView<const float> view(const Particles& particles) {
@@ -109,9 +128,22 @@ bool ExplicitSteps::look_at(const Particles& start) {
   return std::ranges::all_of(tasks_, &Task::sound);
 }
 
+/// Whether boxes show that no bodies are near each other, so that none has to be looked at.
+bool ExplicitSteps::all_apart() {
+  if (model_->contact.self || springs_.size() > most_boxes) return false;
+  constexpr float far = std::numeric_limits<float>::infinity();
+  body_boxes_.assign(springs_.size(), Box{{far, far, far}, {-far, -far, -far}});
+  for (const Task& task : tasks_) body_boxes_[task.body] = around(body_boxes_[task.body], task.box);
+  const auto margin = static_cast<float>(1.01 * bodies_->most_margin());
+  for (std::size_t a = 0; a < body_boxes_.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (meet(body_boxes_[a], body_boxes_[b], margin)) return false;
+  return true;
+}
+
 bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
   if (!known_) look_at(start);
-  const bool may_touch = bodies_ && bodies_->begin_step(dynamics_.step(), view(start));
+  const bool may_touch = bodies_ && !all_apart() && bodies_->begin_step(dynamics_.step(), view(start));
   const double h = model_->simulation.timestep;
   const std::size_t stages = method_.stages.size();
   const Particles* at = &start;
@@ -217,15 +249,6 @@ Vector force_at(const Forces& forces, std::size_t n) {
 }
 void put_force(const Forces& forces, std::size_t n, const Vector& f) {
   for (std::size_t c = 0; c < 3; ++c) forces.component[c][n] = f[static_cast<Eigen::Index>(c)];
-}
-
-/// Around both.
-Box around(Box a, const Box& b) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    a.min[c] = std::min(a.min[c], b.min[c]);
-    a.max[c] = std::max(a.max[c], b.max[c]);
-  }
-  return a;
 }
 
 }  // namespace

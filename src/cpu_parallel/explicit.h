@@ -48,6 +48,7 @@ class ExplicitSteps final : public Steps {
   void end(Task& task, const StageMove& stage);
   void respond(Task& task, const StageMove& stage);
   void find_near(Task& task, const VectorArray& x) const;
+  bool all_apart();
   void touch(const StageMove& stage);
   void move_touched(Task& task, const StageMove& stage);
   std::span<const std::uint32_t> touched_in(Range range) const;
@@ -70,6 +71,7 @@ class ExplicitSteps final : public Steps {
   bool known_ = false;                                     ///< the boxes, and what is near
   std::unique_ptr<reference::BodyContact<float>> bodies_;  ///< none where none can touch
   bool touching_ = false;                                  ///< in the stage at hand
+  std::vector<Box> body_boxes_;                            ///< around all tasks of each body
   std::vector<reference::Vector<float>> touched_;          ///< forces on bodies_->particles() [N]
 };
 

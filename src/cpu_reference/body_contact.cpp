@@ -4,6 +4,7 @@
 #include <limits>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "model/model.h"
 
@@ -67,6 +68,7 @@ BodyContact<T>::BodyContact(const Model& model, double ahead_step)
       h_(static_cast<T>(model.simulation.timestep)),
       friction_(static_cast<T>(model.contact.body_friction)),
       timestep_(model.simulation.timestep),
+      faces_(surfaces_),
       places_(surfaces_.points.size()),
       place_of_(model.particle_count(), nowhere) {
   ease_apart(model, ahead_step > 0.0);
@@ -103,93 +105,87 @@ bool BodyContact<T>::begin_step(std::uint64_t step, const Particles& start) {
     places_[p] = {x.x(), x.y(), x.z()};
   }
   if (near_.update(places_)) list_used();
-  for (std::size_t n = 0; n < pieces_of(used_.size()); ++n) prepare_faces(n, start);
-  prepare_normals();
-  prepared_ = start.x[0];
-  find_candidates(start);
-  return !encounters_.empty();
+  start_ = start;
+  return !near_.encounters().empty();
 }
 
 /// Which triangles and normals the lists of what is near ask for.
 template <class T>
 void BodyContact<T>::list_used() {
-  used_.clear();
-  used_points_.clear();
-  hints_.assign(near_.encounters().size(), nowhere);
+  all_near_.begin();
+  own_.clear();
+  NumberSet particles;
   for (const Encounter& near : near_.encounters()) {
-    const auto triangles = near_.triangles(near);
-    used_.insert(used_.end(), triangles.begin(), triangles.end());
-    for (const std::uint32_t own : surfaces_.points[near.point].own) used_points_.push_back(own);
+    const TouchPoint& point = surfaces_.points[near.point];
+    all_near_.add(near_.triangles(near));
+    all_near_.add_carriers(point);
+    own_.push_back(body_of(near.point));
+    for (const std::uint32_t own : point.own) particles.add(own);
   }
-  const auto sort = [](std::vector<std::uint32_t>& list) {
-    std::ranges::sort(list);
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  };
-  sort(used_points_);
-  for (const std::uint32_t point : used_points_) {
-    const auto at = surfaces_.triangles_at(point);
-    used_.insert(used_.end(), at.begin(), at.end());
-  }
-  sort(used_);
-  slot_.resize(surfaces_.triangles.size());
-  for (std::uint32_t n = 0; n < used_.size(); ++n) slot_[used_[n]] = n;
-  faces_.resize(used_.size());
-  normals_.resize(surfaces_.points.size());
+  NumberSet corners;
+  for (const std::uint32_t t : all_near_.added())
+    for (const std::uint32_t corner : surfaces_.triangles[t].corner) corners.add(corner);
+  std::vector<std::array<std::uint32_t, 2>> followed;  // body, particle
+  for (const std::uint32_t own : particles.list())
+    followed.push_back({body_of(own), surfaces_.points[own].carrier[0]});
+  for (const std::uint32_t corner : corners.list()) followed.push_back({body_of_particle(corner), corner});
+  short_.reset(near_.encounters().size(), surfaces_.bodies.size(), std::move(followed));
+  all_near_.end(surfaces_);
+  few_stale_ = true;
 }
 
+/// The same for the short lists.
 template <class T>
-void BodyContact<T>::prepare_faces(std::size_t piece, const Particles& at) {
-  const std::size_t end = std::min(used_.size(), (piece + 1) * piece_size);
-  for (std::size_t n = piece * piece_size; n < end; ++n) {
-    const auto& corner = surfaces_.triangles[used_[n]].corner;
-    faces_[n] = face_of<T>(at.position(corner[0]), at.position(corner[1]), at.position(corner[2]));
+void BodyContact<T>::list_short() {
+  few_.begin();
+  for (std::size_t n = 0; n < near_.encounters().size(); ++n) {
+    const auto& list = short_[n];
+    if (list.count == 0) continue;
+    few_.add(std::span(list.triangle).first(list.count));
+    few_.add_carriers(surfaces_.points[near_.encounters()[n].point]);
   }
+  few_.end(surfaces_);
+  few_stale_ = false;
 }
 
-/// Normals of particles: Σ g of the triangles at each, of which only the sign of products matters.
+/// Faces and normals of everything, or, where nearly all short lists hold, of what those ask for; the rest is
+/// made where something asks for it.
 template <class T>
-void BodyContact<T>::prepare_normals() {
-  for (const std::uint32_t point : used_points_) {
-    const auto triangles = surfaces_.triangles_at(point);
-    Vector<T> sum = face(triangles.front()).g;
-    for (const std::uint32_t t : triangles.subspan(1)) sum = sum + face(t).g;
-    normals_[point] = sum;
-  }
+void BodyContact<T>::choose_faces(const Particles& at) {
+  short_.follow(at);
+  const auto encounters = near_.encounters();
+  std::size_t lost = 0;
+  for (std::size_t n = 0; n < encounters.size(); ++n) lost += !short_.holds(n, own_[n], encounters[n].body);
+  const bool few = 8 * lost < encounters.size();
+  if (few && few_stale_) list_short();
+  faces_.begin(few ? few_ : all_near_);
 }
 
-/// Of the triangles near a point those whose boxes hold it at the start of the step, where the faces are.
+/// Whether the box of a triangle near a point holds it at the start of the step.
 template <class T>
-void BodyContact<T>::find_candidates(const Particles& start) {
-  encounters_.clear();
-  candidates_.clear();
-  near_index_.clear();
-  for (std::uint32_t n = 0; n < near_.encounters().size(); ++n) {
-    const Encounter& near = near_.encounters()[n];
-    const Vector<T> P = place<T>(surfaces_.points[near.point], start);
-    const T margin = table_.at(body_of(near.point), near.body).margin;
-    const auto first = static_cast<std::uint32_t>(candidates_.size());
-    for (const std::uint32_t t : near_.triangles(near))
-      if (box_holds<T>(face(t), margin, P)) candidates_.push_back(t);
-    const auto count = static_cast<std::uint32_t>(candidates_.size()) - first;
-    if (count == 0) continue;
-    encounters_.push_back({near.point, near.body, first, count});
-    near_index_.push_back(n);
-  }
+bool BodyContact<T>::is_candidate(const Encounter& near, std::uint32_t triangle) const {
+  const auto& corner = surfaces_.triangles[triangle].corner;
+  const Vector<T> A = start_->position(corner[0]), B = start_->position(corner[1]),
+                  C = start_->position(corner[2]);
+  const T margin = table_.at(body_of(near.point), near.body).margin;
+  return box_holds<T>(Vector<T>(A.cwiseMin(B).cwiseMin(C)), Vector<T>(A.cwiseMax(B).cwiseMax(C)), margin,
+                      place<T>(surfaces_.points[near.point], *start_));
 }
 
 template <class T>
 void BodyContact<T>::find_in(std::size_t piece, const Particles& at) {
   pieces_[piece].touches.clear();
-  const std::size_t end = std::min(encounters_.size(), (piece + 1) * piece_size);
-  for (std::size_t n = piece * piece_size; n < end; ++n)
-    touch(encounters_[n], hints_[near_index_[n]], at, pieces_[piece]);
+  const std::size_t end = std::min(near_.encounters().size(), (piece + 1) * piece_size);
+  for (std::size_t n = piece * piece_size; n < end; ++n) touch(n, at, pieces_[piece]);
 }
 
 template <class T>
 bool BodyContact<T>::gather() {
   touches_.clear();
-  for (std::size_t n = 0; n < pieces_of(encounters_.size()); ++n)
+  for (std::size_t n = 0; n < pieces_of(near_.encounters().size()); ++n) {
     touches_.insert(touches_.end(), pieces_[n].touches.begin(), pieces_[n].touches.end());
+    few_stale_ = few_stale_ || std::exchange(pieces_[n].lists_changed, false);
+  }
   name_particles();
   return !touches_.empty();
 }
@@ -201,51 +197,98 @@ std::uint32_t BodyContact<T>::body_of(std::uint32_t point) const {
 }
 
 template <class T>
+std::uint32_t BodyContact<T>::body_of_particle(std::uint32_t particle) const {
+  const auto first = [&](const TouchBody& body) { return surfaces_.points[body.first_point].carrier[0]; };
+  const auto after = std::ranges::upper_bound(surfaces_.bodies, particle, {}, first);
+  return static_cast<std::uint32_t>(after - surfaces_.bodies.begin()) - 1;
+}
+
+template <class T>
 std::uint32_t BodyContact<T>::body_of_triangle(std::uint32_t triangle) const {
   const auto after = std::ranges::upper_bound(surfaces_.bodies, triangle, {}, &TouchBody::first_triangle);
   return static_cast<std::uint32_t>(after - surfaces_.bodies.begin()) - 1;
 }
 
-/// Whether a triangle counts for a point whose normal is N: between closed surfaces, if it turns to it.
+/// Whether a triangle counts for a point: between closed surfaces, if it turns to it.
 template <class T>
-bool BodyContact<T>::counts(const Face<T>& face, bool opposing, const Vector<T>& N) const {
-  return face.real && (!opposing || dot3<T>(N, face.g) < T(0));
+bool BodyContact<T>::counts(const Face<T>& face, const Looker& p) const {
+  return face.real && (!p.opposing || dot3<T>(p.N, face.g) < T(0));
 }
 
-/// Fills in `sights`: what the point sees of its candidates. What is farther than `far` [m] touches nothing,
-/// nor does what is farther than the nearest and than ρ, which both are known to be within what the triangle
-/// of the last look, `hint`, says; a hundredth of a spacing is left for what ties.
+/// Fills in `sights` from the short list. Returns false if it does not hold.
 template <class T>
-void BodyContact<T>::look(const Encounter& encounter, const TouchConstants<T>& pair, std::uint32_t hint,
-                          bool opposing, const Vector<T>& P, std::vector<Sight<T>>& sights) const {
-  const auto candidates = this->candidates(encounter);
-  const TouchPoint& point = surfaces_.points[encounter.point];
-  const Vector<T> N = opposing ? over_own<T>(point, [&](std::uint32_t own) { return normals_[own]; })
-                               : Vector<T>(Vector<T>::Zero());
-  const auto see = [&](std::uint32_t t) { return sight_of<T>(t, surfaces_.triangles[t].side, face(t), P); };
-  T far = std::max(pair.sight, pair.depth);
-  if (std::ranges::binary_search(candidates, hint) && counts(face(hint), opposing, N))
-    far = std::min(far, std::max(pair.sight, see(hint).L));
-  far += T(0.01) * pair.s;
+bool BodyContact<T>::look_at_few(const Looker& p, std::vector<Sight<T>>& sights) const {
+  if (!short_.holds(p.n, p.own, p.near.body)) return false;
+  const auto& list = short_[p.n];
+  bool nearest_counts = list.nearest == short_.none;
   sights.clear();
-  for (const std::uint32_t t : candidates)
-    if (!beyond<T>(face(t), far, P) && counts(face(t), opposing, N)) sights.push_back(see(t));
+  Face<T> room;
+  for (std::uint32_t n = 0; n < list.count; ++n) {
+    const std::uint32_t t = list.triangle[n];
+    const Face<T>& f = faces_.face(t, p.at, room);
+    if (!counts(f, p)) continue;
+    sights.push_back(sight_of<T>(t, surfaces_.triangles[t].side, f, p.P));
+    nearest_counts = nearest_counts || t == list.nearest;
+  }
+  return nearest_counts;
+}
+
+/// The same from all that is near. What is farther than `far` [m] touches nothing. Then makes the short list:
+/// with β the way that bodies may go, no triangle comes nearer than by β, so that only those may become the
+/// nearest that are no farther than 2β more than it, and only those second sides that are within β of their
+/// reach.
+template <class T>
+void BodyContact<T>::look_at_all(const Looker& p, Piece& piece) {
+  const T way = T(0.025) * p.pair.s, slack = T(0.002) * p.pair.s;
+  const T far = std::max(p.pair.sight, p.pair.depth) + T(0.01) * p.pair.s;
+  std::vector<Sight<T>>&sights = piece.sights, &around = piece.around;
+  sights.clear();
+  around.clear();
+  auto& list = short_.begin(p.n, p.own, p.near.body, static_cast<double>(way));
+  Face<T> room;
+  for (const std::uint32_t t : near_.triangles(p.near)) {
+    const Face<T>& f = faces_.face(t, p.at, room);
+    if (beyond<T>(f, far + way + slack, p.P)) continue;
+    if (!f.real) list.until = -1.0;  // it may get an area
+    if (!f.real) continue;
+    around.push_back(sight_of<T>(t, surfaces_.triangles[t].side, f, p.P));
+    if (counts(f, p) && is_candidate(p.near, t)) sights.push_back(around.back());
+  }
+  const Sight<T>* const first = nearest_of<T>(sights, p.pair.tie, [](const Sight<T>&) { return true; });
+  if (first) list.nearest = first->triangle;
+  const T most = first ? std::max(first->L + T(2) * way, p.pair.sight + way) + slack : far + way + slack;
+  for (const Sight<T>& seen : around) {
+    if (seen.L > most) continue;
+    short_.add(list, seen.triangle);
+    if (!is_candidate(p.near, seen.triangle)) list.until = -1.0;  // it came within this step
+  }
+  piece.lists_changed = true;
 }
 
 /// The contacts of a point with a body: the first, then second sides.
 template <class T>
-void BodyContact<T>::touch(const Encounter& encounter, std::uint32_t& hint, const Particles& at,
-                           Piece& piece) const {
-  const std::uint32_t own = body_of(encounter.point);
-  const TouchConstants<T>& pair = table_.at(own, encounter.body);
-  const bool closed = surfaces_.bodies[encounter.body].closed;
-  look(encounter, pair, hint, closed && surfaces_.bodies[own].closed,
-       place<T>(surfaces_.points[encounter.point], at), piece.sights);
-  const Sight<T>* const first = nearest_of<T>(piece.sights, pair.tie, [](const Sight<T>&) { return true; });
+void BodyContact<T>::touch(std::size_t n, const Particles& at, Piece& piece) {
+  const Encounter& near = near_.encounters()[n];
+  const bool listed = short_.holds(n, own_[n], near.body);
+  if (listed && short_[n].count == 0) return;
+  const TouchPoint& point = surfaces_.points[near.point];
+  const bool closed = surfaces_.bodies[near.body].closed;
+  const bool opposing = closed && surfaces_.bodies[own_[n]].closed;
+  const Looker p = {n,
+                    near,
+                    own_[n],
+                    table_.at(own_[n], near.body),
+                    opposing,
+                    place<T>(point, at),
+                    opposing ? over_own<T>(point, [&](std::uint32_t own) { return faces_.normal(own, at); })
+                             : Vector<T>(Vector<T>::Zero()),
+                    at};
+  if (!look_at_few(p, piece.sights)) look_at_all(p, piece);
+  const Sight<T>* const first = nearest_of<T>(piece.sights, p.pair.tie, [](const Sight<T>&) { return true; });
   if (!first) return;
-  hint = first->triangle;
-  const auto gap = closed ? closed_gap<T>(*first, pair.sight, pair.depth) : open_gap<T>(*first, pair.sight);
-  if (gap) piece.touches.push_back(contact(encounter, *first, *gap, at));
+  const auto gap =
+      closed ? closed_gap<T>(*first, p.pair.sight, p.pair.depth) : open_gap<T>(*first, p.pair.sight);
+  if (gap) add(p, *first, *gap, piece);
   if (!closed) return;
   const auto next_side = [&](std::uint32_t least) {
     std::uint32_t side = nowhere;
@@ -255,21 +298,19 @@ void BodyContact<T>::touch(const Encounter& encounter, std::uint32_t& hint, cons
   };
   for (std::uint32_t side = next_side(0); side != nowhere; side = next_side(side + 1)) {
     const Sight<T>& seen =
-        *nearest_of<T>(piece.sights, pair.tie, [&](const Sight<T>& each) { return each.side == side; });
-    if (straight_in_front<T>(seen, pair.sight))
-      piece.touches.push_back(contact(encounter, seen, *closed_gap<T>(seen, pair.sight, pair.depth), at));
+        *nearest_of<T>(piece.sights, p.pair.tie, [&](const Sight<T>& each) { return each.side == side; });
+    if (straight_in_front<T>(seen, p.pair.sight))
+      add(p, seen, *closed_gap<T>(seen, p.pair.sight, p.pair.depth), piece);
   }
 }
 
 template <class T>
-Touch<T> BodyContact<T>::contact(const Encounter& encounter, const Sight<T>& seen, const TouchGap<T>& gap,
-                                 const Particles& at) const {
-  const TouchPoint& point = surfaces_.points[encounter.point];
+void BodyContact<T>::add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap, Piece& piece) const {
+  const TouchPoint& point = surfaces_.points[p.near.point];
   const auto& corner = surfaces_.triangles[seen.triangle].corner;
-  const TouchConstants<T>& pair = table_.at(body_of(encounter.point), encounter.body);
   const auto& [b, c, face] = seen.at;
-  Touch<T> made;
-  made.point = encounter.point;
+  Touch<T>& made = piece.touches.emplace_back();
+  made.point = p.near.point;
   made.triangle = seen.triangle;
   made.carriers = point.single() ? 1 : 2;
   made.particle = {point.carrier[0], point.carrier[1], corner[0], corner[1], corner[2]};
@@ -277,15 +318,14 @@ Touch<T> BodyContact<T>::contact(const Encounter& encounter, const Sight<T>& see
   made.weight = {static_cast<T>(point.weight[0]), static_cast<T>(point.weight[1]), (T(1) - b) - c, b, c};
   made.n = gap.n;
   made.d = gap.d;
-  made.reach = reach_of(encounter, pair);
-  made.k = pair.k;
-  made.c = pair.c;
-  const auto v = [&](std::uint32_t p) { return at.velocity(p); };
+  made.reach = reach_of(p.near, p.pair);
+  made.k = p.pair.k;
+  made.c = p.pair.c;
+  const auto v = [&](std::uint32_t i) { return p.at.velocity(i); };
   const T u = dot3<T>(made.n, over_carriers<T>(made, v) - over_corners<T>(made, v));
   made.rest = made.k * (made.reach - made.d);
   if (at_end_) made.rest = made.rest + made.c * u;
   made.push = push_of<T>(made, u);
-  return made;
 }
 
 /// ρ, or what of it has come back since the initial state, in which the bodies overlapped.

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "cpu_reference/ball_particles.h"
 #include "cpu_reference/near_triangles.h"
+#include "cpu_reference/touch_faces.h"
 #include "cpu_reference/touch_geometry.h"
 #include "cpu_reference/touch_rule.h"
+#include "cpu_reference/touch_shortlists.h"
 #include "model/touch_surface.h"
 
 namespace aspic::reference {
@@ -49,14 +52,16 @@ class BodyContact {
   BodyContact(const BodyContact&) = delete;
   BodyContact& operator=(const BodyContact&) = delete;
 
-  /// A step from the state of this number begins here: what may touch in it is decided. Returns whether
-  /// anything may.
+  /// A step from the state of this number begins here, where the particles stay until it ends. Returns
+  /// whether anything may touch in it.
   bool begin_step(std::uint64_t step, const Particles& start);
 
-  /// The points that may touch in this step, and what: ascending by point, body and triangle.
-  std::span<const Encounter> encounters() const { return encounters_; }
-  std::span<const std::uint32_t> candidates(const Encounter& of) const {
-    return std::span(candidates_).subspan(of.first, of.count);
+  /// The candidates of this step: calls take(point, triangle), ascending by point, body and triangle.
+  template <class Take>
+  void for_candidates(const Take& take) const {
+    for (const Encounter& near : near_.encounters())
+      for (const std::uint32_t t : near_.triangles(near))
+        if (is_candidate(near, t)) take(near.point, t);
   }
 
   /// Finds the contacts at a place of the step, for forces there and those below. Returns whether there is
@@ -69,12 +74,12 @@ class BodyContact {
   /// The same on many threads: run(count, task) calls task(n) for n below count, in any order.
   template <class Run>
   bool find(const Particles& at, const Run& run) {
-    const bool prepared = prepared_ == at.x[0];  // the first stage of a step is at its start
-    prepared_ = nullptr;
-    if (!prepared) run(pieces_of(used_.size()), [&](std::size_t n) { prepare_faces(n, at); });
-    if (!prepared) prepare_normals();
-    pieces_.resize(std::max(pieces_.size(), pieces_of(encounters_.size())));
-    run(pieces_of(encounters_.size()), [&](std::size_t n) { find_in(n, at); });
+    choose_faces(at);
+    run(faces_.pieces(), [&](std::size_t n) { faces_.prepare(n, at); });
+    faces_.prepare_normals();
+    const std::size_t pieces = pieces_of(near_.encounters().size());
+    pieces_.resize(std::max(pieces_.size(), pieces));
+    run(pieces, [&](std::size_t n) { find_in(n, at); });
     return gather();
   }
   /// With an ahead_step: whether find() looks where the step may end, not where it begins.
@@ -105,6 +110,8 @@ class BodyContact {
     }
     find_friction();
   }
+  /// Bodies whose boxes are farther apart than this do not touch [m].
+  double most_margin() const { return near_.most_margin(); }
   /// μ
   T friction() const { return friction_; }
 
@@ -116,29 +123,39 @@ class BodyContact {
 
  private:
   void ease_apart(const Model& model, bool ahead);
-  void find_candidates(const Particles& start);
+  bool is_candidate(const Encounter& near, std::uint32_t triangle) const;
   /// What one task of find() works with.
   struct Piece {
-    std::vector<Sight<T>> sights;
+    std::vector<Sight<T>> sights, around;
     std::vector<Touch<T>> touches;
+    bool lists_changed = false;
   };
   static constexpr std::size_t piece_size = 256;
   static std::size_t pieces_of(std::size_t count) { return (count + piece_size - 1) / piece_size; }
   void list_used();
-  void prepare_faces(std::size_t piece, const Particles& at);
-  void prepare_normals();
+  void list_short();
+  void choose_faces(const Particles& at);
   void find_in(std::size_t piece, const Particles& at);
   bool gather();
-  const Face<T>& face(std::uint32_t triangle) const { return faces_[slot_[triangle]]; }
-  bool counts(const Face<T>& face, bool opposing, const Vector<T>& N) const;
-  void look(const Encounter& encounter, const TouchConstants<T>& pair, std::uint32_t hint, bool opposing,
-            const Vector<T>& P, std::vector<Sight<T>>& sights) const;
-  void touch(const Encounter& encounter, std::uint32_t& hint, const Particles& at, Piece& piece) const;
-  Touch<T> contact(const Encounter& encounter, const Sight<T>& seen, const TouchGap<T>& gap,
-                   const Particles& at) const;
+  /// A point and a body, in the middle of a find().
+  struct Looker {
+    std::size_t n;  // of the encounter
+    const Encounter& near;
+    std::uint32_t own;  // the point's body
+    const TouchConstants<T>& pair;
+    bool opposing;
+    Vector<T> P, N;  // the point and, where only faces count that turn to it, its normal
+    const Particles& at;
+  };
+  bool counts(const Face<T>& face, const Looker& p) const;
+  bool look_at_few(const Looker& p, std::vector<Sight<T>>& sights) const;
+  void look_at_all(const Looker& p, Piece& piece);
+  void touch(std::size_t encounter, const Particles& at, Piece& piece);
+  void add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap, Piece& piece) const;
   void name_particles();
   void find_friction();
   std::uint32_t body_of(std::uint32_t point) const;
+  std::uint32_t body_of_particle(std::uint32_t particle) const;  ///< of a surface
   std::uint32_t body_of_triangle(std::uint32_t triangle) const;
   T reach_of(const Encounter& encounter, const TouchConstants<T>& pair) const;
 
@@ -150,15 +167,13 @@ class BodyContact {
   bool at_end_ = false;
   std::vector<Eased> eased_;  // ascending by point and body
   T time_ = T(0);             // since the initial state [s]
-  // Of what is near: triangles and where their faces are, points of carriers with their normals, the nearest
-  // triangle of each encounter when it was last looked at.
-  std::vector<std::uint32_t> used_, slot_, used_points_, hints_;
-  std::vector<Face<T>> faces_;
-  std::vector<Vector<T>> normals_;  // by point
-  const T* prepared_ = nullptr;     // the places that faces_ are of, if these may not have changed since
-  std::vector<std::uint32_t> near_index_;  // of encounters_
-  std::vector<Encounter> encounters_;
-  std::vector<std::uint32_t> candidates_;
+  std::optional<Particles> start_;
+  // Of all that is near, and of what the short lists ask for.
+  WantedFaces all_near_, few_;
+  bool few_stale_ = true;
+  TouchFaces<T> faces_;
+  TouchShortlists<T> short_;
+  std::vector<std::uint32_t> own_;  // by encounter: the point's body
   std::vector<Vec3> places_;
   std::vector<Piece> pieces_;
   std::vector<Touch<T>> touches_;

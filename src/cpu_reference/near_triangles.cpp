@@ -12,7 +12,7 @@ double component(const Vec3& v, std::size_t axis) {
 }
 
 /// No pair of the body has a larger margin [m].
-double most_margin(const ContactSettings& contact, const TouchBody& body) {
+double margin_of(const ContactSettings& contact, const TouchBody& body) {
   TouchBody open = body;
   open.closed = false;
   return touch_pair(contact, body, open, false).margin;
@@ -177,14 +177,19 @@ void NearTriangles::build() {
   std::ranges::sort(encounters_, {}, [](const Encounter& e) { return std::pair(e.point, e.body); });
 }
 
+double NearTriangles::most_margin() const {
+  double widest = 0.0;
+  for (const TouchBody& body : surfaces_.bodies) widest = std::max(widest, margin_of(contact_, body));
+  return widest;
+}
+
 /// Pairs of bodies whose boxes are near, by body of triangles.
 void NearTriangles::find_partners(const std::vector<Bounds>& around) {
   partners_.clear();
   std::vector<std::uint32_t> order(around.size());
   std::iota(order.begin(), order.end(), 0u);
   std::ranges::sort(order, {}, [&](std::uint32_t b) { return around[b].min[0]; });
-  double widest = 0.0;
-  for (const TouchBody& body : surfaces_.bodies) widest = std::max(widest, most_margin(contact_, body));
+  const double widest = most_margin();
   for (std::size_t n = 0; n < order.size(); ++n) {
     const std::uint32_t a = order[n];
     if (contact_.self) partners_.push_back({a, a});

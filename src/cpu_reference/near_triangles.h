@@ -61,6 +61,8 @@ class NearTriangles {
   bool update(std::span<const Vec3> places);
   /// The same, and makes the lists again whatever has moved.
   void make(std::span<const Vec3> places);
+  /// The largest margin of any pair of bodies [m].
+  double most_margin() const;
   /// How far a particle may be from where it was when the lists were made [m].
   double leeway() const { return 0.5 * slack_; }
   /// Ascending by point, then by body.

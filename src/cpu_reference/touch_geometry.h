@@ -66,11 +66,11 @@ Face<T> face_of(const Vector<T>& A, const Vector<T>& B, const Vector<T>& C) {
   return face;
 }
 
-/// Whether a face's box, widened by `margin` [m], holds P.
+/// Whether a box, widened by `margin` [m], holds P.
 template <class T>
-bool box_holds(const Face<T>& face, T margin, const Vector<T>& P) {
+bool box_holds(const Vector<T>& low, const Vector<T>& high, T margin, const Vector<T>& P) {
   for (Eigen::Index c = 0; c < 3; ++c)
-    if (!(P[c] >= face.low[c] - margin && P[c] <= face.high[c] + margin)) return false;
+    if (!(P[c] >= low[c] - margin && P[c] <= high[c] + margin)) return false;
   return true;
 }
 

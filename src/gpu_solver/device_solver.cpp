@@ -225,7 +225,7 @@ Status DeviceSolver::check_touching() const {
       fail(ErrorCode::scene_rejected,
            "contact of bodies needs the particles in one block of {} memory, and there are {} of them.",
            context_.info().renderer, model_->particle_count()),
-      {use_backend("cpu")});
+      {use_backend("cpu"), advice("switch contact of bodies off")});
 }
 
 void DeviceSolver::keep_counting() {

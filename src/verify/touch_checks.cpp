@@ -112,8 +112,8 @@ Result<Finding> sticks(const Subject& subject, Integrator integrator) {
   return Finding{crept <= 1e-4 && last <= 2e-6, fmt::format("{:.2g} and {:.2g} m", crept, last)};
 }
 
-Result<Finding> slides(const Subject& subject, Integrator integrator) {
-  ASPIC_TRY(auto model, build_model(leaning(1.1, integrator)));
+Result<Finding> slides_in(const Subject& subject, const ModelSettings& settings) {
+  ASPIC_TRY(auto model, build_model(settings));
   ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
   std::array<double, 2> speed = {};
   for (std::size_t n = 0; const double seconds : {0.4, 0.6}) {
@@ -123,6 +123,42 @@ Result<Finding> slides(const Subject& subject, Integrator integrator) {
   }
   const double angle = std::atan(0.55), coulomb = 9.8 * (std::sin(angle) - 0.5 * std::cos(angle));
   return at_most(std::abs((speed[1] - speed[0]) / 0.6 / coulomb - 1.0), 0.01);
+}
+
+Result<Finding> slides(const Subject& subject, Integrator integrator) {
+  return slides_in(subject, leaning(1.1, integrator));
+}
+
+/// Steps of implicit Euler, 60 a second.
+ModelSettings solved(ModelSettings settings) {
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 1.0 / 60.0;
+  return settings;
+}
+
+std::uint64_t unsolved(Solver& solver) {
+  const SolveStatistics statistics = *solver.solve_statistics();
+  return statistics.steps - statistics.converged;
+}
+
+Result<Finding> sticks_solved(const Subject& subject) {
+  ASPIC_TRY(auto model, build_model(solved(leaning(0.9, Integrator::implicit_euler))));
+  ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
+  const double start = measure(model, initial_state(model, Precision::double_)).total();
+  std::array<double, 2> x = {};
+  double gained = 0.0;
+  for (std::size_t n = 0; const double seconds : {5.0, 1.0}) {
+    ASPIC_TRY(auto at, run(*solver, steps_of(model, seconds)));
+    gained = std::max(gained, measure(model, at).total() - start);
+    x[n++] = centre(model, at, 1).x;
+  }
+  const double crept = std::abs(x[1] - x[0]);
+  return Finding{crept <= 5e-6 && gained <= 0.0 && unsolved(*solver) == 0,
+                 fmt::format("{:.2g} m, {:.2g} J, {} steps", crept, gained, unsolved(*solver))};
+}
+
+Result<Finding> slides_solved(const Subject& subject) {
+  return slides_in(subject, solved(leaning(1.1, Integrator::implicit_euler)));
 }
 
 template <class Run>
@@ -160,6 +196,13 @@ void add_touch_checks(std::vector<Check>& checks) {
       "≤ 1e-04 and 2e-06 m", sticks);
   add_for_explicit(checks, "bodies/slide", "the same at 1.1: error of the acceleration, relative",
                    at_most_text(0.01, ""), slides);
+  checks.push_back({"bodies/stick/implicit-euler",
+                    "a 4³ cube on a slope of 0.9 of the friction angle, h = 1/60 s: creep in the sixth "
+                    "second, energy gained, "
+                    "steps left unsolved",
+                    "≤ 5e-06 m, none, none", false, false, sticks_solved});
+  checks.push_back({"bodies/slide/implicit-euler", "the same at 1.1: error of the acceleration, relative",
+                    at_most_text(0.01, ""), false, false, slides_solved});
 }
 
 }  // namespace aspic::verify

@@ -26,8 +26,7 @@ std::string hash_on_cpu(const Model& model, std::uint64_t steps, unsigned thread
 }
 
 class BodiesOnTheCpu : public testing::TestWithParam<Integrator> {};
-INSTANTIATE_TEST_SUITE_P(CpuSolver, BodiesOnTheCpu, testing::ValuesIn(all_integrators),
-                         test::by_integrator);
+INSTANTIATE_TEST_SUITE_P(CpuSolver, BodiesOnTheCpu, testing::ValuesIn(all_integrators), test::by_integrator);
 
 TEST_P(BodiesOnTheCpu, TouchWithTheReferencesBits) {
   for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {

@@ -194,16 +194,11 @@ using Candidates = std::set<std::tuple<std::uint32_t, std::uint32_t>>;  // point
 Candidates found_by(const Contact& contact) {
   Candidates found;
   std::tuple<std::uint32_t, std::uint32_t> last = {0, 0};
-  for (const Encounter& encounter : contact.encounters()) {
-    EXPECT_LE(last, std::tuple(encounter.point, encounter.body));
-    last = {encounter.point, encounter.body};
-    std::uint32_t before = 0;
-    for (const std::uint32_t t : contact.candidates(encounter)) {
-      EXPECT_TRUE(t > before || t == 0 || before == 0);
-      before = t;
-      found.emplace(encounter.point, t);
-    }
-  }
+  contact.for_candidates([&](std::uint32_t point, std::uint32_t triangle) {
+    EXPECT_TRUE(found.empty() || last < std::tuple(point, triangle));
+    last = {point, triangle};
+    found.emplace(point, triangle);
+  });
   return found;
 }
 

@@ -265,7 +265,8 @@ struct Windowed {
 void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed) {
   const auto& [path, integrator, block, first] = windowed;
   const bool solved = integrator == Integrator::implicit_euler;
-  const Model model = mixed(integrator, solved ? 1.0 / 60.0 : 0.001, first);
+  Model model = mixed(integrator, solved ? 1.0 / 60.0 : 0.001, first);
+  model.contact.bodies = false;  // which needs complete states
   const std::uint64_t steps = solved ? 15 : 120;
   auto reference = std::move(make_reference_solver(model, Precision::single)).value();
   ASSERT_FALSE((*reference->advance(steps)).has_value());

@@ -44,19 +44,34 @@ def force_jacobian(world, x0, v):
 def backward_euler(world):
     """The step's end (x', v') before the terrain's response, and by terrain the particles that the ground held."""
     x0, v0, h, count = world.x, world.v, world.h, len(world.x)
-    held = 0.0
+    held, touching = 0.0, None
     if world.model == "course":
         f = world.m[:, None] * world.gravity + world.spring_force(x0, v0)
         held = world.course_contact_force(x0, v0, f) - f
 
     def evaluate(v):
         f = world.m[:, None] * world.gravity + world.spring_force(x0 + h * v, v) + held
+        if touching:
+            f = f + world.touch.react(touching, v)[0]
         free = v0 + (h * world.w)[:, None] * f
         end, slope, held_by = (world.ground.project(free) if world.ground else
                                (free, np.broadcast_to(np.eye(3), (count, 3, 3)), None))
         return v - end, slope, held_by
 
-    v = v0
+    start = world.m[:, None] * world.gravity + world.spring_force(x0, v0)
+    if world.touch:
+        touching = world.touch.ahead(x0, v0, start, 1)
+    v, held_by = newton(world, evaluate, v0, touching)
+    if touching:
+        # Once more, with what touches where this ended.
+        touching = world.touch.ahead(x0 + h * v, v, start, 2)
+        v, held_by = newton(world, evaluate, v, touching)
+    return x0 + h * v, v, held_by
+
+
+def newton(world, evaluate, v, touching):
+    """The velocities that solve the equation, from v on, and what holds the particles there."""
+    x0, count = world.x, len(world.x)
     residual, slope, held_by = evaluate(v)
     best = np.inf, v, held_by
     for _ in range(ITERATIONS):
@@ -66,7 +81,10 @@ def backward_euler(world):
         if size < ROUNDING:
             break
         # d(residual)/dv = I - P' d(free)/dv; a pinned particle has w = 0 and keeps its velocity.
-        through = np.einsum("iab,ibjc->iajc", slope * world.w[:, None, None], force_jacobian(world, x0, v))
+        jacobian = force_jacobian(world, x0, v)
+        if touching:
+            jacobian = jacobian + world.touch.react(touching, v)[1]
+        through = np.einsum("iab,ibjc->iajc", slope * world.w[:, None, None], jacobian)
         matrix = np.eye(3 * count) + through.reshape(3 * count, 3 * count)
         step = np.linalg.solve(matrix, -residual.ravel()).reshape(v.shape)
         length, before = 1.0, np.linalg.norm(residual)
@@ -84,4 +102,4 @@ def backward_euler(world):
     size, v, held_by = best
     if size > 100 * ROUNDING:
         raise NotSolved(f"a residual of {size:.1e} m/s is left after {ITERATIONS} iterations")
-    return x0 + h * v, v, held_by
+    return v, held_by

@@ -7,6 +7,7 @@ import numpy as np
 
 YOUNGS_MODULUS_PER_STIFFNESS = 7.3125
 REST_DISTANCE = 2.1  # within one body, in spacings
+AHEAD = 0.4  # from where implicit Euler knows of contacts, in spacings
 
 
 def dot(a, b):
@@ -98,10 +99,11 @@ class Touch:
             holds = ((P >= corners.min(1) - margin) & (P <= corners.max(1) + margin)).all(-1)
             self.candidates[a, b] = holds & self.surfaces[a].far_at_rest if a == b else holds
 
-    def contacts(self, x, v):
-        found = {key: [] for key in ("pair", "point", "index", "weight", "n", "d", "reach", "push")}
+    def contacts(self, x, v, solve=0):
+        """Of the explicit methods, or of implicit Euler's first or second solve."""
+        found = {key: [] for key in ("pair", "point", "index", "weight", "n", "d", "reach", "push", "rest", "c")}
         for pair in self.pairs:
-            for contact in self.of_pair(*pair, x, v):
+            for contact in self.of_pair(*pair, x, v, solve):
                 for key, value in contact.items():
                     found[key].append(value)
         return found
@@ -114,8 +116,10 @@ class Touch:
             np.add.at(sums, surface.triangles[:, corner], g)
         return surface.points(sums)
 
-    def of_pair(self, a, b, x, v):
+    def of_pair(self, a, b, x, v, solve):
         k, c, s, reach, depth = self.constants(a, b)
+        sight = max(reach, AHEAD * s) if solve else reach
+        c = k * self.world.h if solve else c
         A, B = self.surfaces[a], self.surfaces[b]
         P, corners = A.points(x), x[B.triangles]
         g = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -136,12 +140,12 @@ class Touch:
         for point in np.flatnonzero(eligible.any(1) & (np.where(eligible, L, np.inf).min(1) <= depth)):
             first = pick(point, eligible[point])
             chosen = []
-            if (L[point, first] < reach if z[point, first] >= 0
+            if (L[point, first] < sight if z[point, first] >= 0
                     else L[point, first] <= depth and -z[point, first] >= 0.7 * L[point, first]):
                 chosen.append(first)
             for side in sorted(set(B.sides[eligible[point]]) - {B.sides[first]}):
                 t = pick(point, eligible[point] & (B.sides == side))
-                if 0 <= z[point, t] and L[point, t] < reach and z[point, t] >= 0.9 * L[point, t]:
+                if 0 <= z[point, t] and L[point, t] < sight and z[point, t] >= 0.9 * L[point, t]:
                     chosen.append(t)
             for t in chosen:
                 d = np.copysign(L[point, t], 1 if z[point, t] >= 0 else -1)
@@ -152,20 +156,26 @@ class Touch:
                 start = self.eased.get(((a, b), point), np.inf)
                 far = min(reach, start + s * self.steps * self.world.h)
                 u = n @ (weight @ v[index])
+                rest = k * (far - d) + (c * u if solve == 2 else 0.0)
                 yield {"pair": (a, b), "point": point, "index": index, "weight": weight, "n": n, "d": d, "reach": far,
-                       "push": max(0.0, k * (far - d) - c * u)}
+                       "push": max(0.0, rest - c * u), "rest": rest, "c": c}
 
     def forces(self, x, v, f):
         """The forces f with pushes and friction."""
         found = self.contacts(x, v)
         if not found["push"]:
             return f
-        index, weight, n = (np.array(found[key]) for key in ("index", "weight", "n"))
-        push = np.array(found["push"])
+        f, rub = self.rubbing({key: np.array(found[key]) for key in ("index", "weight", "n", "push")}, f)
+        np.add.at(f, found["index"], np.array(found["weight"])[..., None] * rub[:, None])
+        return f
+
+    def rubbing(self, found, f):
+        """The forces f with pushes, and the friction of each contact, which is not in them."""
+        index, weight, n, push = (found[key] for key in ("index", "weight", "n", "push"))
         f, h, w = f.copy(), self.world.h, self.world.w
         np.add.at(f, index, weight[..., None] * (push[:, None] * n)[:, None])
         v1 = self.v0 + h * w[:, None] * f
-        share = np.zeros(len(x))
+        share = np.zeros(len(f))
         np.add.at(share, index, np.abs(weight) * push[:, None])
         on = push > 0
         W = np.where(on, (np.abs(weight) * w[index] * share[index]).sum(1) / np.where(on, push, 1), 0)
@@ -174,6 +184,35 @@ class Touch:
         J = slip / np.where(W > 0, W, np.inf)[:, None]
         size, cone = np.linalg.norm(J, axis=1), self.mu * h * push
         J *= np.where(size > cone, cone / np.where(size > 0, size, 1), 1)[:, None]
-        np.add.at(f, index, weight[..., None] * (-J / h)[:, None])
         self.touched = True
-        return f
+        return f, -J / h
+
+    def ahead(self, x, v, f, solve):
+        """The contacts of a solve of implicit Euler; f: gravity and springs where the step begins. None: there are none."""
+        found = {key: np.array(value) for key, value in self.contacts(x, v, solve).items() if key not in ("pair", "point")}
+        if not len(found["push"]):
+            return None
+        return found | {"rub": self.rubbing(found, f)[1], "cone": self.mu * found["push"]}
+
+    def react(self, held, v):
+        """Forces of these contacts at the velocities v of the step's end, and -h times their derivative by these, as an
+        array (particles, 3, particles, 3)."""
+        index, weight, n, c, cone = (held[key] for key in ("index", "weight", "n", "c", "cone"))
+        h = self.world.h
+        r = (weight[..., None] * v[index]).sum(1)
+        u = dot(r, n)
+        push = np.maximum(0.0, held["rest"] - c * u)
+        p = held["rub"] - c[:, None] * (r - u[:, None] * n)
+        size = np.linalg.norm(p, axis=1)
+        share = np.where(size > cone, cone / np.where(size > 0, size, 1), 1.0) * (cone > 0)
+        t = np.where((size > cone)[:, None], p / np.where(size > 0, size, 1)[:, None], 0.0)
+        f = np.zeros_like(v)
+        np.add.at(f, index, weight[..., None] * (push[:, None] * n + share[:, None] * p)[:, None])
+        nn, tt = n[:, :, None] * n[:, None], t[:, :, None] * t[:, None]
+        block = (h * c)[:, None, None] * ((push > 0)[:, None, None] * nn + share[:, None, None] * (np.eye(3) - nn - tt))
+        matrix = np.zeros((len(v), 3, len(v), 3))
+        for i in range(5):
+            for j in range(5):
+                both = (weight[:, i] * weight[:, j])[:, None, None] * block
+                np.add.at(matrix, (index[:, i], slice(None), index[:, j]), both)
+        return f, matrix

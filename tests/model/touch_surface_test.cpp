@@ -130,17 +130,5 @@ TEST(TouchSurface, IsWantedWhereSomethingCanTouch) {
   EXPECT_TRUE(bodies_touch(test::build(settings)));
 }
 
-TEST(TouchSurface, NeedsAnExplicitMethod) {
-  ModelSettings settings;
-  settings.cubes.resize(2);
-  settings.contact.bodies = true;
-  settings.simulation.integrator = Integrator::implicit_euler;
-  const auto refused = build_model(settings);
-  ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
-  settings.cubes.resize(1);
-  EXPECT_TRUE(build_model(settings).ok()) << "one body touches no other";
-}
-
 }  // namespace
 }  // namespace aspic

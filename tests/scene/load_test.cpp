@@ -207,6 +207,9 @@ std::pair<std::uint32_t, std::uint32_t> expected_sizes(const std::string& scene)
   if (scene == "jelly-figure") return {1566, 0};
   if (scene == "ball-pit") return {0, 1000};
   if (scene == "cube-and-balls") return {1000, 3};
+  if (scene == "cubes-stack") return {3 * 1000, 0};
+  if (scene == "heap") return {28 * 64, 0};
+  if (scene == "squeeze") return {2 * 512, 0};
   return {1000, 0};
 }
 
@@ -229,8 +232,9 @@ TEST(Builtin, ScenesLoadAndBuild) {
   }
   EXPECT_THAT(
       names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus",
-                                  "cube-hole", "elevator", "goal-net", "penalty", "flag", "curtain", "bridge",
-                                  "swing", "jelly-figure", "ball-pit", "cube-and-balls", "large-cube",
+                                  "cube-hole", "elevator", "cubes-stack", "heap", "squeeze", "goal-net",
+                                  "penalty", "flag", "curtain", "bridge", "swing", "jelly-figure", "ball-pit",
+                                  "cube-and-balls", "large-cube",
                                   "course-2021-plane", "course-2021-tilted-plane", "course-2021-sphere",
                                   "course-2021-bowl", "course-2018"));
 }
@@ -239,7 +243,8 @@ TEST(Builtin, ScenesOfAGroupFollowOneAnother) {
   std::vector<std::string> groups;
   for (const BuiltinScene& builtin : list_builtin_scenes())
     if (groups.empty() || groups.back() != builtin.group) groups.emplace_back(builtin.group);
-  EXPECT_THAT(groups, testing::ElementsAre("Cubes", "Nets and cloth", "Cells of materials", "Balls", "Large",
+  EXPECT_THAT(groups, testing::ElementsAre("Cubes", "Bodies that touch", "Nets and cloth",
+                                           "Cells of materials", "Balls", "Large",
                                            "University course"));
 }
 

@@ -34,8 +34,7 @@ const std::string base = [] {
 Value other_value(const Parameter& p) {
   switch (p.type) {
     case ParameterType::boolean:
-      return p.path == "goal-net[].cord" || p.path == "view.axes" || p.path == "contact.bodies" ||
-             p.path == "contact.self";
+      return p.path == "goal-net[].cord" || p.path == "view.axes" || p.path == "contact.self";
     case ParameterType::integer:
       return p.path == "schema" ? std::int64_t{1} : std::int64_t{7};
     case ParameterType::number:
