@@ -52,7 +52,7 @@ draw ball-pit 2.2 ball-pit
 draw curtain 1.25 curtain
 draw flag 2.25 flag
 draw bridge 0.7 bridge
-draw swing 0.42 swing
+draw swing 0.42 swing --view colour=signed-strain
 draw jelly-figure 1.6 jelly-figure
 draw jelly-figure-strain 0.95 jelly-figure --view colour=strain
 for scene in plane:1.25 tilted-plane:1 sphere:1 bowl:1.2; do

@@ -286,8 +286,8 @@ class Simulation(Replayable):
 
         ``duration``, ``steps``: as ``run()``; ``fps``, ``speed``: as ``film()``; ``live``: the page holds no pictures,
         but simulates the run in the browser and compares the bits. Ctrl-C and a divergence leave a complete page so
-        far. Raises UsageError, also for a live page of a run in double precision or with inputs; FileError or
-        FileExistsError where a file exists, unless ``overwrite``; DivergedError as ``step()``.
+        far. Raises UsageError, also for a live page of a run in double precision or with inputs; FileError, also where
+        a file exists, unless ``overwrite``; DivergedError as ``step()``.
         """
         count = self._steps_of(duration, steps)
         _check_pace(fps, speed)

@@ -146,7 +146,7 @@ def test_a_page_holds_the_run(scene: aspic.Scene) -> None:
     again.page("b.html", steps=30, fps=50)
     assert again.hash in text_of("b.html")
     assert len(text_of("b.html")) < len(text_of("a.html")), "half the pictures"
-    with pytest.raises(FileExistsError):
+    with pytest.raises(aspic.FileError, match="overwrite"):
         sim.page("a.html", steps=1)
     assert sim.steps == 40
     sim.page("a.html", steps=1, overwrite=True)
@@ -177,7 +177,7 @@ def test_a_live_page_simulates_the_run_or_says_why_not(scene: aspic.Scene) -> No
         doubles = aspic.Simulation(scene, "reference", precision="double")
         with pytest.raises(aspic.UsageError, match="single precision"):
             doubles.page("d.html", steps=1, live=True)
-        sim.pulls = [aspic.Pull(0, (0.0, 1.0, 0.0))]
+        sim.pulls = [aspic.Pull(0, (0.0, 1.0, 0.0), 100.0)]
         with pytest.raises(aspic.UsageError, match="pulls"):
             sim.page("p.html", steps=1, live=True)
     assert not pathlib.Path("d.html").exists() and not pathlib.Path("p.html").exists()

@@ -162,7 +162,8 @@ std::optional<Value> widget(const Field& f, std::vector<int> value) {
 /// A choice of words, or a text that is only shown.
 std::optional<Value> widget(const Field& f, const std::string& value) {
   if (f.parameter.type == ParameterType::text) {
-    ImGui::TextUnformatted(value.c_str());
+    // A mesh is thousands of signs that say nothing.
+    ImGui::TextUnformatted(f.parameter.path == "voxels[].skin" ? "a mesh" : value.c_str());
     return std::nullopt;
   }
   const std::vector<std::string_view>& words = f.parameter.words;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "gpu/buffer.h"
+#include "gpu/pass.h"
 #include "gpu_solver/layout.h"
 #include "gpu_solver/touch_lists.h"
 

@@ -136,7 +136,7 @@ std::vector<std::string> sentences_of(const VoxelisedMesh& made) {
       fmt::format("{} of {} × {} × {} cells of {:.3g} m are full; the mesh is {}, x × y × z with y upwards",
                   made.grid.full_count(), n, m, l, made.grid.size, size_of(r.extent)));
   if (r.odd_size)
-    said.push_back(
+    said.emplace_back(
         "its numbers are taken as metres, which is an unlikely size; give a height in metres to scale it");
   if (r.ambiguous > 0.01)
     said.push_back(fmt::format("{:.0f} % of the cells are near holes, where inside and outside are a guess",

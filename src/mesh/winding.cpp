@@ -131,9 +131,7 @@ void WindingTree::sum_moments(Node& node, std::size_t count) const {
     const Vec3 n = 0.5 * area_vector(k.a, k.b, k.c), middle = (k.a + k.b + k.c) / 3.0,
                d = middle - node.centre;
     node.dipole = node.dipole + n;
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column)
-        node.first[static_cast<std::size_t>(3 * row + column)] += n[row] * d[column];
+    for (int i = 0; i < 9; ++i) node.first[static_cast<std::size_t>(i)] += n[i / 3] * d[i % 3];
     // The mean of d ⊗ d over a triangle is that of its middle and a twelfth of its corners' from there.
     add_second(node.second.traces, node.second.cubic, n, d, 1.0);
     for (const Vec3& corner : {k.a, k.b, k.c}) {

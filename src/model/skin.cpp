@@ -12,7 +12,9 @@ using Cell = std::array<int, 3>;
 /// How far outside a cell: along the worst axis, and in all.
 struct Outside {
   double most = 0.0, sum = 0.0;
-  friend auto operator<=>(const Outside&, const Outside&) = default;
+  friend bool operator<(const Outside& a, const Outside& b) {
+    return a.most < b.most || (a.most == b.most && a.sum < b.sum);
+  }
 };
 
 class Binder {

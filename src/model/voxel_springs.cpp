@@ -46,11 +46,11 @@ VoxelSprings::VoxelSprings(const VoxelShape& shape, const CellMaterials& materia
     if (cells > 0) density.push_back(sum / cells);
   }
   const auto particles = static_cast<double>(density.size());
-  const auto [n0, n1, n2] = shape.lattice.cells();
+  const std::array<int, 3> n = shape.lattice.cells();
   // As of a cube: its volume is the product of its edges.
   const auto mass_of = [&](double rho) {
     return shape.lattice.all_full()
-               ? rho * (size * n0) * (size * n1) * (size * n2) / particles
+               ? rho * (size * n[0]) * (size * n[1]) * (size * n[2]) / particles
                : rho * (size * size * size) * static_cast<double>(shape.full) / particles;
   };
   for (const MaterialSettings& material : materials.materials)

@@ -91,8 +91,8 @@ Status SectionPainter::list_cells(const Model& model) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     if (!listed(body)) continue;
-    const std::vector<std::uint32_t> corners = corners_of(*body.lattice);
-    ASPIC_TRY(corners_[b], gl::Buffer::of(*context_, "cells of a lattice", corners));
+    const std::vector<std::uint32_t> indices = corners_of(*body.lattice);
+    ASPIC_TRY(corners_[b], gl::Buffer::of(*context_, "cells of a lattice", indices));
     places.resize(std::size_t{3} * model.particle_count());
     auto at = places.begin() + std::ptrdiff_t{3} * body.first_particle;
     for (std::size_t point = 0; point < body.lattice->points(); ++point) {

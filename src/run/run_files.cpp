@@ -95,6 +95,7 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
   }
   for (const std::string* const path : {&pictures.page, &pictures.page_live}) {
     if (!page.scene || path->empty()) continue;
+    ASPIC_CHECK(page::check_page_name(*path));
     const page::PageSettings settings = {frames_per_second(pictures), pictures.speed, page.command,
                                          path == &pictures.page_live};
     ASPIC_TRY(auto sink,

@@ -31,47 +31,46 @@ std::optional<Position> first_override(const Reader& reader, const std::string& 
 }  // namespace
 
 void resolve_material(Reader& reader, const BodyInList& body, bool had_material) {
-  const auto& [list, index] = body;
-  const std::string section = fmt::format("{}[]", list);
-  const std::string material_path = path_text(section + ".material", index);
+  const std::string section = fmt::format("{}[]", body.list);
+  const std::string material_path = path_text(section + ".material", body.index);
   const auto written = reader.written().find(material_path);
   if (written != reader.written().end())
     had_material = written->second.key.source == 0;
   else if (!had_material)
     return;
   const std::optional<Position> set_material = first_override(reader, material_path);
-  const std::vector<std::string> keys = reader.explicit_keys(section, index);
+  const std::vector<std::string> keys = reader.explicit_keys(section, body.index);
   std::optional<Position> set_explicit;
   for (const std::string& key : keys) {
-    const std::string path = fmt::format("{}[{}].{}", list, index, key);
+    const std::string path = fmt::format("{}[{}].{}", body.list, body.index, key);
     if (had_material && reader.written().at(path).key.source == 0) return;  // the file is wrong by itself
     const auto at = first_override(reader, path);
     if (at && (!set_explicit || at->source < set_explicit->source)) set_explicit = at;
   }
   const bool all_set = std::ranges::all_of(parameters(), [&](const Parameter& p) {
-    const auto place = reader.written().find(path_text(p.path, index));
+    const auto place = reader.written().find(path_text(p.path, body.index));
     return p.belonging != Belonging::explicit_springs || p.section() != section ||
            (place != reader.written().end() && place->second.key.source > 0);
   });
   if (set_explicit && all_set && !set_material) {
-    material_place(reader.scene().model, section, index)->reset();
+    material_place(reader.scene().model, section, body.index)->reset();
     return reader.forget(material_path);
   }
   if (set_material && set_explicit) {
-    reader.fail(
-        std::max(*set_material, *set_explicit,
-                 [](const Position& a, const Position& b) { return a.source < b.source; }),
-        fmt::format("a {} has either a material or masses and springs: these arguments give both", list));
+    reader.fail(std::max(*set_material, *set_explicit,
+                         [](const Position& a, const Position& b) { return a.source < b.source; }),
+                fmt::format("a {} has either a material or masses and springs: these arguments give both",
+                            body.list));
   } else if (set_explicit) {
     reader.fail(*set_explicit,
                 fmt::format("this {} is made of a material, which decides its masses and springs; set "
                             "material.density, material.youngs-modulus or material.damping-ratio, or all of "
                             "particle-mass, structural, shear and bending with stiffness and damping",
-                            list));
+                            body.list));
   } else if (!set_material) {
     return;
   }
-  for (const std::string& key : keys) reader.forget(fmt::format("{}[{}].{}", list, index, key));
+  for (const std::string& key : keys) reader.forget(fmt::format("{}[{}].{}", body.list, body.index, key));
 }
 
 void resolve_shape(Reader& reader, std::size_t terrain) {

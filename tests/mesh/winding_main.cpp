@@ -1,5 +1,6 @@
-// winding_points MESH POINTS: winding numbers of the mesh as it is, without repair, at points of three numbers a line; a line each:
-// by the tree, and of every triangle one by one. For comparison with other programs (tests/python/winding_test.py).
+// winding_points MESH POINTS: winding numbers of the mesh as it is, without repair, at points of three
+// numbers a line; a line each: by the tree, and of every triangle one by one. For comparison with other
+// programs (tests/python/winding_test.py).
 #include <fmt/format.h>
 
 #include <cstdio>

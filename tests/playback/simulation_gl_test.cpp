@@ -1,6 +1,7 @@
 // A run in motion without a window, with a backend on another thread and with one in the context.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
@@ -40,6 +41,17 @@ class InMotion : public aspic::testing::GlTest, public ::testing::WithParamInter
       ASSERT_TRUE(run->settle().ok());
       ASSERT_TRUE(run->refresh_snapshot().ok());
       hashes[run->step()] = state_hash_text(run->snapshot());
+    }
+  }
+
+  /// Pictures until a condition holds, for which another thread works; a failure after 20 s.
+  template <class Condition>
+  void update_until(Condition condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!condition()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), end);
+      ASSERT_TRUE(run->update(0.016, 0.01).ok());
+      std::this_thread::yield();
     }
   }
 
@@ -199,10 +211,7 @@ TEST_P(InMotion, AChangeThatHasNotBegunIsDroppedByAWayBack) {
   EXPECT_FALSE(run->rebuild().take_change().has_value());
   run->rebuild().request(other, true);
   // It begins once the figures of the state are measured.
-  for (int i = 0; i < 1000 && run->rebuild().changing(); ++i) {
-    ASSERT_TRUE(run->update(0.016, 0.01).ok());
-    std::this_thread::yield();
-  }
+  update_until([&] { return !run->rebuild().changing(); });
   const auto changed = run->rebuild().take_change();
   ASSERT_TRUE(changed.has_value());
   EXPECT_TRUE(changed->ok());
@@ -212,10 +221,7 @@ TEST_P(InMotion, AChangeThatHasNotBegunIsDroppedByAWayBack) {
 
 TEST_P(InMotion, FiguresOfAPausedRunAreOfItsState) {
   step_to(7);
-  for (int i = 0; i < 1000 && run->samples().nearest(run->time())->step != 7; ++i) {
-    ASSERT_TRUE(run->update(0.016, 0.01).ok());
-    std::this_thread::yield();
-  }
+  update_until([&] { return run->samples().nearest(run->time())->step == 7; });
   EXPECT_EQ(run->samples().nearest(run->time())->step, 7u);
 }
 

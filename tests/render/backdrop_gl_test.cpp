@@ -93,9 +93,9 @@ TEST_P(BackdropOfScene, ChangesNoByte) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BackdropOfScene,
                          ::testing::Values("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
-                                           "cube-torus", "cube-hole", "elevator", "goal-net", "penalty",
-                                           "cube-and-balls", "ball-pit", "flag", "curtain", "bridge",
-                                           "swing"),
+                                           "jelly-figure", "cube-torus", "cube-hole", "elevator", "goal-net",
+                                           "penalty", "cube-and-balls", "ball-pit", "flag", "curtain",
+                                           "bridge", "swing"),
                          [](const ::testing::TestParamInfo<const char*>& scene) {
                            std::string name = scene.param;
                            std::erase(name, '-');

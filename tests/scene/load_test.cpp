@@ -230,13 +230,12 @@ TEST(Builtin, ScenesLoadAndBuild) {
       for (const Terrain& t : model->terrain) ASSERT_GT(signed_distance(t, x), 0.05);
     }
   }
-  EXPECT_THAT(
-      names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus",
-                                  "cube-hole", "elevator", "cubes-stack", "heap", "squeeze", "goal-net",
-                                  "penalty", "flag", "curtain", "bridge", "swing", "jelly-figure", "ball-pit",
-                                  "cube-and-balls", "large-cube",
-                                  "course-2021-plane", "course-2021-tilted-plane", "course-2021-sphere",
-                                  "course-2021-bowl", "course-2018"));
+  EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
+                                          "cube-torus", "cube-hole", "elevator", "cubes-stack", "heap",
+                                          "squeeze", "goal-net", "penalty", "flag", "curtain", "bridge",
+                                          "swing", "jelly-figure", "ball-pit", "cube-and-balls", "large-cube",
+                                          "course-2021-plane", "course-2021-tilted-plane",
+                                          "course-2021-sphere", "course-2021-bowl", "course-2018"));
 }
 
 TEST(Builtin, ScenesOfAGroupFollowOneAnother) {
@@ -244,8 +243,7 @@ TEST(Builtin, ScenesOfAGroupFollowOneAnother) {
   for (const BuiltinScene& builtin : list_builtin_scenes())
     if (groups.empty() || groups.back() != builtin.group) groups.emplace_back(builtin.group);
   EXPECT_THAT(groups, testing::ElementsAre("Cubes", "Bodies that touch", "Nets and cloth",
-                                           "Cells of materials", "Balls", "Large",
-                                           "University course"));
+                                           "Cells of materials", "Balls", "Large", "University course"));
 }
 
 // Limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.
