@@ -76,7 +76,7 @@ struct SweepOptions {
   std::vector<std::string> vary;      ///< KEY=VALUES, at least one
   std::string out;                    ///< the CSV file; empty: none
   std::string runs;                   ///< the folder that keeps each run; empty: none, and there is `out`
-  unsigned jobs = 0;                  ///< processes; 0: as many as pay
+  unsigned jobs = 0;                  ///< processes; 0: as many as are worthwhile
   std::uint64_t part = 1, parts = 1;  ///< 1 ≤ part ≤ parts
   bool force = false;
   bool json = false;

@@ -67,7 +67,7 @@ void add_overrides(CLI::App* c, std::vector<std::string>& overrides) {
 void add_arithmetic(CLI::App* c, RawOptions& raw) {
   add(c, "--arithmetic", "NAME", raw.arithmetic,
       "exact: the reference's bits, or fast: other last bits (gpu and cpu)");
-  add(c, "--threads", "N", raw.threads, "threads of the cpu backend, 1 to 1024; default: as many as pay",
+  add(c, "--threads", "N", raw.threads, "threads of the cpu backend, 1 to 1024; default: as many as are worthwhile",
       few);
 }
 

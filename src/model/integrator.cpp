@@ -28,32 +28,28 @@ StepMatrix scaled(long double h, long double kappa, long double gamma) {
 
 }  // namespace
 
-StepMatrix explicit_euler(long double h, long double kappa, long double gamma) {
-  return one + scaled(h, kappa, gamma);
+template <int order>
+StepMatrix exponential(long double h, long double kappa, long double gamma) {
+  const StepMatrix z = scaled(h, kappa, gamma);
+  StepMatrix sum = one, term = one;
+  for (int n = 1; n <= order; ++n) {
+    term = 1.0L / static_cast<long double>(n) * (term * z);
+    sum = sum + term;
+  }
+  return sum;
 }
+template StepMatrix exponential<1>(long double, long double, long double);
+template StepMatrix exponential<2>(long double, long double, long double);
+template StepMatrix exponential<3>(long double, long double, long double);
+template StepMatrix exponential<4>(long double, long double, long double);
 
 StepMatrix symplectic_euler(long double h, long double kappa, long double gamma) {
   return StepMatrix{1, h, 0, 1} * StepMatrix{1, 0, -h * kappa, 1 - h * gamma};
 }
 
-StepMatrix midpoint_rule(long double h, long double kappa, long double gamma) {
-  const StepMatrix z = scaled(h, kappa, gamma);
-  return one + z + 0.5L * (z * z);
-}
-
-StepMatrix runge_kutta_4(long double h, long double kappa, long double gamma) {
-  const StepMatrix z = scaled(h, kappa, gamma), z2 = z * z;
-  return one + z + 0.5L * z2 + 1.0L / 6 * (z2 * z) + 1.0L / 24 * (z2 * z2);
-}
-
 StepMatrix implicit_euler_one_pass(long double h, long double kappa, long double gamma) {
   const StepMatrix z = scaled(h, kappa, gamma);
   return one + z + z * z;
-}
-
-StepMatrix heun_3(long double h, long double kappa, long double gamma) {
-  const StepMatrix z = scaled(h, kappa, gamma), z2 = z * z;
-  return one + z + 0.5L * z2 + 1.0L / 6 * (z2 * z);
 }
 
 StepMatrix velocity_verlet(long double h, long double kappa, long double gamma) {

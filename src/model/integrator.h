@@ -97,13 +97,12 @@ inline constexpr std::array<Stage, 2> verlet = {{{1.0, 1.0}, {0.0, 1.0}}};
 inline constexpr std::array<Stage, 3> heun = {{{1.0 / 3, 1.0}, {2.0 / 3, 0.0}, {0.0, 3.0}}};
 inline constexpr std::array<Stage, 4> kutta = {{{0.5, 1.0}, {0.5, 2.0}, {1.0, 2.0}, {0.0, 1.0}}};
 
-StepMatrix explicit_euler(long double h, long double kappa, long double gamma);
+/// 1 + Z + … + Zⁿ/n!, Z = h·A, n = `order` ≤ 4: the step of every method of n stages and order n.
+template <int order>
+StepMatrix exponential(long double h, long double kappa, long double gamma);
 StepMatrix symplectic_euler(long double h, long double kappa, long double gamma);
-StepMatrix midpoint_rule(long double h, long double kappa, long double gamma);
-StepMatrix runge_kutta_4(long double h, long double kappa, long double gamma);
 StepMatrix implicit_euler(long double h, long double kappa, long double gamma);
 StepMatrix implicit_euler_one_pass(long double h, long double kappa, long double gamma);
-StepMatrix heun_3(long double h, long double kappa, long double gamma);
 StepMatrix velocity_verlet(long double h, long double kappa, long double gamma);
 double symplectic_euler_limit(double kappa, double gamma);
 double velocity_verlet_limit(double kappa, double gamma);
@@ -113,7 +112,7 @@ double velocity_verlet_limit(double kappa, double gamma);
 /// In the order in which lists show them.
 inline constexpr std::array integrator_table = {
     IntegratorRow{Integrator::explicit_euler, "explicit-euler", "explicit Euler", 1,
-                  integrator_rows::explicit_euler, Staged{integrator_rows::one_stage}, MethodTraits{},
+                  integrator_rows::exponential<1>, Staged{integrator_rows::one_stage}, MethodTraits{},
                   "Euler, 1768", "x' = x + h·v, v' = v + h·a(x, v)"},
     IntegratorRow{
         Integrator::symplectic_euler, "symplectic-euler", "symplectic Euler", 1,
@@ -122,11 +121,11 @@ inline constexpr std::array integrator_table = {
         MethodTraits{.keeps_angular_momentum = true}, "Hairer, Lubich, Wanner, 2006",
         "v' = v + h·a(x, v), x' = x + h·v'"},
     IntegratorRow{
-        Integrator::midpoint, "midpoint", "midpoint", 2, integrator_rows::midpoint_rule,
+        Integrator::midpoint, "midpoint", "midpoint", 2, integrator_rows::exponential<2>,
         Staged{integrator_rows::midpoint}, MethodTraits{}, "Runge, 1895",
         "x' = x + h·vₘ, v' = v + h·a(xₘ, vₘ), where xₘ, vₘ are half a step of explicit Euler ahead"},
     IntegratorRow{Integrator::runge_kutta_4, "runge-kutta-4", "Runge–Kutta 4", 4,
-                  integrator_rows::runge_kutta_4, Staged{integrator_rows::kutta, 6.0}, MethodTraits{},
+                  integrator_rows::exponential<4>, Staged{integrator_rows::kutta, 6.0}, MethodTraits{},
                   "Kutta, 1901",
                   "x' = x + h/6·(k₁ + 2k₂ + 2k₃ + k₄), v likewise; k₁ at 0, k₂ and k₃ at h/2, k₄ at h"},
     IntegratorRow{
@@ -139,7 +138,7 @@ inline constexpr std::array integrator_table = {
                   1, integrator_rows::implicit_euler_one_pass, Staged{integrator_rows::one_pass},
                   MethodTraits{}, "the 2021 assignment",
                   "x' = x + h·vₚ, v' = v + h·a(xₚ, vₚ), where xₚ, vₚ are a step of explicit Euler ahead"},
-    IntegratorRow{Integrator::heun_3, "heun-3", "Heun 3", 3, integrator_rows::heun_3,
+    IntegratorRow{Integrator::heun_3, "heun-3", "Heun 3", 3, integrator_rows::exponential<3>,
                   Staged{integrator_rows::heun, 4.0}, MethodTraits{}, "Heun, 1900",
                   "x' = x + h/4·(k₁ + 3k₃), v likewise; k₂ at h/3, k₃ at 2h/3"},
     IntegratorRow{
