@@ -15,7 +15,7 @@ core      each room's own tests; the gpu solvers on llvmpipe with a covering set
           package; the window's main tests
 full      core, and by label:
   pages        pages of every built-in scene in Chromium and Firefox; pages that simulate, with every scene and method, and the site;
-               these are skipped where scripts/wasm.sh has made no module
+               those that simulate are skipped where scripts/wasm.sh has made no module
   products     equal bits in products of methods, terrains and paths, and for more particles
   drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads, on zink and for
                Khronos' reference compiler
@@ -24,6 +24,7 @@ full      core, and by label:
   verify       aspic verify --quick
   window       the rest of the window's tests
   report       the report's page in a browser, and on paper
+  examples     the commands of the documents, shortened
   independent  the independent implementation of the physics
   packages     the Python package from source distribution to wheel to a fresh environment; its sweeps on Dask and submitit;
                its notebooks; the cube that learns to crawl, to the end
@@ -34,7 +35,7 @@ full      core, and by label:
   sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers
   fuzzers      ten seconds each (scripts/fuzz.sh)
 
-Left to scripts/check.sh: the full tier under sanitizers, the thread sanitizer, clang-tidy, types of all translation units.
+Left to scripts/check.sh: most of the full tier under sanitizers, the thread sanitizer, clang-tidy, types of all translation units.
 Left to scripts/debians.sh and scripts/package.sh: both Debians, and packages in empty ones.
 END
 }

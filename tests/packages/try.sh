@@ -34,6 +34,34 @@ if python_state gpu >"$log" 2>&1; then fail "python3 found a device"; fi
 grep -q '^aspic.*DeviceError: ' "$log" || fail "without EGL, python3 says $(cat "$log")"
 echo "gpu, without EGL: $(tail -n 1 "$log")"
 
+echo "--- libaspic-dev"
+get ./packages/libaspic-dev_*.deb g++ cmake make
+if has_egl; then fail "EGL came with the headers: it is recommended, not needed"; fi
+mkdir -p lab
+cp aspic/examples/minimal.cpp lab
+lab_state() { "$1" cube-bowl 200 "$2" | awk '/^state hash/ { print $3 }'; }
+for kind in shared static; do
+  cat >lab/CMakeLists.txt <<END
+cmake_minimum_required(VERSION 3.25)
+project(lab LANGUAGES CXX)
+find_package(aspic 0.2 REQUIRED COMPONENTS $kind)
+add_executable(lab minimal.cpp)
+target_link_libraries(lab PRIVATE aspic::aspic)
+END
+  quietly cmake -S lab -B "lab/$kind" -DCMAKE_BUILD_TYPE=Release
+  quietly cmake --build "lab/$kind"
+  for backend in cpu reference; do
+    expect "find_package(aspic), $kind, on $backend" "$(lab_state "lab/$kind/lab" $backend)"
+  done
+  code=0
+  "lab/$kind/lab" cube-bowl 200 gpu >"$log" 2>&1 || code=$?
+  [ "$code" = 4 ] || fail "without EGL, the program ended with $code in place of 4 on gpu: $(cat "$log")"
+  grep -q libegl1 "$log" || fail "without EGL, the program says on gpu $(cat "$log")"
+  echo "find_package(aspic), $kind, on gpu, without EGL: $(head -n 1 "$log")"
+done
+quietly g++ -std=c++20 lab/minimal.cpp $(pkg-config --cflags --libs aspic) -o lab/by-pkg-config
+expect "pkg-config" "$(lab_state lab/by-pkg-config cpu)"
+
 echo "--- aspic"
 get ./packages/aspic_*.deb
 aspic --version
@@ -69,27 +97,7 @@ quietly desktop-file-validate /usr/share/applications/aspic.desktop
 echo "--- with EGL and Mesa"
 get libegl1 libgl1-mesa-dri
 expect "aspic run on gpu" "$(state gpu)"
-
-echo "--- libaspic-dev"
-get ./packages/libaspic-dev_*.deb g++ cmake make
-mkdir -p lab
-cp aspic/examples/minimal.cpp lab
-for kind in shared static; do
-  cat >lab/CMakeLists.txt <<END
-cmake_minimum_required(VERSION 3.25)
-project(lab LANGUAGES CXX)
-find_package(aspic 0.2 REQUIRED COMPONENTS $kind)
-add_executable(lab minimal.cpp)
-target_link_libraries(lab PRIVATE aspic::aspic)
-END
-  quietly cmake -S lab -B "lab/$kind" -DCMAKE_BUILD_TYPE=Release
-  quietly cmake --build "lab/$kind"
-  for backend in cpu gpu; do
-    expect "find_package(aspic), $kind, on $backend" "$("lab/$kind/lab" cube-bowl 200 "$backend" | awk '/^state hash/ { print $3 }')"
-  done
-done
-quietly g++ -std=c++20 lab/minimal.cpp $(pkg-config --cflags --libs aspic) -o lab/by-pkg-config
-expect "pkg-config" "$(lab/by-pkg-config cube-bowl 200 cpu | awk '/^state hash/ { print $3 }')"
+for kind in shared static; do expect "find_package(aspic), $kind, on gpu" "$(lab_state "lab/$kind/lab" gpu)"; done
 
 echo "--- python3-aspic on gpu"
 expect "python3 on gpu" "$(python_state gpu)"
