@@ -16,6 +16,7 @@ here() {
   source "$root/scripts/setup.sh"
   aspic_install package
   "$root/scripts/python.sh"
+  aspic_wasm
   cd "$root"
   cmake --preset package
   ninja -C build/package --quiet

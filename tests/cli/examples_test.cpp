@@ -135,13 +135,17 @@ std::vector<Example> examples_of_page(const fs::path& page) {
   return examples;
 }
 
-std::vector<Example> examples_of_pages() {
+std::vector<fs::path> documents() {
   std::vector<fs::path> pages = {fs::path(ASPIC_SOURCE_DIR) / "README.md"};
   for (const auto& entry : fs::directory_iterator(fs::path(ASPIC_SOURCE_DIR) / "docs"))
     if (entry.path().extension() == ".md") pages.push_back(entry.path());
   std::ranges::sort(pages);
+  return pages;
+}
+
+std::vector<Example> examples_of_pages() {
   std::vector<Example> examples;
-  for (const fs::path& page : pages) {
+  for (const fs::path& page : documents()) {
     const auto more = examples_of_page(page);
     examples.insert(examples.end(), more.begin(), more.end());
   }
@@ -179,6 +183,32 @@ std::string divided(const std::string& command, const std::string& option, doubl
   std::ostringstream value;
   value << std::max(std::stod(found.str(2)) / divisor, least);
   return std::string(found.prefix()) + option + found.str(1) + value.str() + std::string(found.suffix());
+}
+
+struct Block {
+  std::string where;     ///< "README.md:33", its first line
+  std::string language;  ///< "toml"; empty: none is said
+  std::string text;
+};
+
+/// The fenced blocks of a page.
+std::vector<Block> blocks_of_page(const fs::path& page) {
+  std::vector<Block> blocks;
+  std::ifstream file(page);
+  bool within = false;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    if (line.starts_with("```")) {
+      within = !within;
+      if (within)
+        blocks.push_back({fs::relative(page, ASPIC_SOURCE_DIR).string() + ":" + std::to_string(number),
+                          line.substr(3), ""});
+    } else if (within) {
+      blocks.back().text += line + "\n";
+    }
+  }
+  return blocks;
 }
 
 /// What becomes of `aspic verify` when an example is run.
@@ -238,6 +268,17 @@ class Reader {
     dir_.write("hands.toml", "[[inputs]]\nstep = 5\npinned = [0]\n");
   }
 
+  /// What `aspic scene check` says of a file that is here for the moment.
+  test::Finished check(const std::string& name, const std::string& text) {
+    dir_.write(name, text);
+    test::ProcessOptions shell;
+    shell.program = "/bin/sh";
+    auto done =
+        test::aspic({"-c", "cd '" + dir_.path().string() + "' && bin/aspic scene check " + name}, shell);
+    fs::remove(dir_.file(name));
+    return done;
+  }
+
   void run(const Example& example, Checks checks = Checks::listed) {
     // What one example wrote may be in the way of the next; scenes and checkpoints are meant for it.
     for (const auto& entry : fs::directory_iterator(dir_.path())) {
@@ -287,6 +328,35 @@ TEST(Examples, OfHelpRun) {
   Reader reader;
   for (const Example& example : examples_of_all_help())
     if (!is_excluded(example) && !draws(example)) reader.run(example);
+}
+
+TEST(Examples, ScenesOfDocumentsAreAccepted) {
+  Reader reader;
+  int scenes = 0;
+  for (const fs::path& page : documents())
+    for (const Block& block : blocks_of_page(page)) {
+      if (block.language != "toml") continue;
+      ++scenes;
+      const bool complete = block.text.find("schema = ") != std::string::npos;
+      const auto done = reader.check("block.toml", (complete ? "" : "schema = 1\n") + block.text);
+      EXPECT_EQ(done.exit_code, 0) << block.where << "\n" << done.err;
+    }
+  EXPECT_GE(scenes, 2);
+}
+
+// README shows what an error in line 20 looks like.
+TEST(Examples, ErrorOfTheReadmeIsWhatItSays) {
+  const auto blocks = blocks_of_page(fs::path(ASPIC_SOURCE_DIR) / "README.md");
+  const auto shown = std::ranges::find_if(
+      blocks, [](const Block& b) { return b.text.starts_with("aspic: jelly.toml:20:16:"); });
+  ASSERT_NE(shown, blocks.end());
+  const std::string line = test::lines(shown->text).at(1);
+  ASSERT_TRUE(line.starts_with("  20 | "));
+  Reader reader;
+  const auto done = reader.check("jelly.toml", "schema = 1\n" + std::string(17, '\n') + "[[cube]]\n" +
+                                                   line.substr(std::string_view("  20 | ").size()) + "\n");
+  EXPECT_EQ(done.exit_code, 3);
+  EXPECT_EQ(done.err, shown->text);
 }
 
 // The page of the assignments sends its reader to rows of aspic verify, which have to pass.

@@ -114,6 +114,22 @@ foreach(kind IN LISTS KINDS)
   endif()
 endforeach()
 
+# The three lines of the README, and what every project has besides.
+file(READ "${ASPIC_SOURCE}/README.md" readme)
+if(NOT readme MATCHES "```cmake\n([^`]+)```")
+  complain("README.md has no lines of CMake.")
+endif()
+file(WRITE "${place}/readme/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)\nproject(lab LANGUAGES CXX)\n${CMAKE_MATCH_1}")
+file(COPY "${ASPIC_SOURCE}/examples/minimal.cpp" DESTINATION "${place}/readme")
+do(ignored "${CMAKE_COMMAND}" -G Ninja -S "${place}/readme" -B "${place}/readme/build" "-DCMAKE_PREFIX_PATH=${place}/prefix"
+   "-DCMAKE_CXX_COMPILER=${COMPILER}")
+do(ignored "${CMAKE_COMMAND}" --build "${place}/readme/build")
+do(run "${place}/readme/build/lab" cube-bowl 300 cpu)
+hash_in("${run}" got)
+if(NOT got STREQUAL wanted)
+  complain("README.md's project ends with the state ${got}, the program with ${wanted}.")
+endif()
+
 set(pkg_config "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${place}/prefix/${LIBDIR}/pkgconfig" pkg-config)
 do(include ${pkg_config} --variable=includedir aspic)
 string(STRIP "${include}" include)
