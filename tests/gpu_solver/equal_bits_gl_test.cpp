@@ -16,6 +16,7 @@
 #include "support/equality_cases.h"
 #include "support/gl_fixture.h"
 #include "support/golden_runs.h"
+#include "support/integrator_names.h"
 #include "support/lattice_bodies.h"
 #include "support/model_building.h"
 
@@ -71,6 +72,15 @@ class EqualBits : public aspic::testing::GlTest {
 
 class EqualBitsInFull : public EqualBits {};
 
+void expect_golden_end(gl::Context& context, const test::GoldenRun& run) {
+  SCOPED_TRACE(run.scene);
+  const Model model = run.model();
+  auto solver = make_gpu_solver(context, model);
+  ASSERT_TRUE(solver.ok()) << solver.error().message();
+  ASSERT_TRUE((*solver)->advance(run.steps).ok());
+  test::expect_golden(run, *(*solver)->state());
+}
+
 TEST_F(EqualBits, CoveringSet) {
   for (const test::EqualityCase& row : test::covering_cases()) {
     SCOPED_TRACE(test::text_of(row));
@@ -93,14 +103,20 @@ TEST_F(EqualBits, BuiltInScenes) {
     const Integrator method = all_integrators[turn % all_integrators.size()];
     const ContactModel contact = contact_models[turn / 2 % 2].value;
     ++turn;
-    const test::GoldenRun run = test::golden_run(std::string(scene.name), contact, method);
-    const Model model = run.model();
-    auto solver = make_gpu_solver(context(), model);
-    ASSERT_TRUE(solver.ok()) << solver.error().message();
-    ASSERT_TRUE((*solver)->advance(run.steps).ok());
-    test::expect_golden(run, *(*solver)->state());
+    expect_golden_end(context(), test::golden_run(std::string(scene.name), contact, method));
   }
 }
+
+// Browsers end all of these runs with the same states (tests/page/live_browser_test.cpp).
+class EqualBitsOfScenesInFull : public EqualBits, public ::testing::WithParamInterface<Integrator> {};
+
+TEST_P(EqualBitsOfScenesInFull, UnderThisMethod) {
+  for (const test::GoldenRun& run : test::scene_runs())
+    if (run.method == GetParam()) expect_golden_end(context(), run);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, EqualBitsOfScenesInFull, ::testing::ValuesIn(all_integrators),
+                         test::by_integrator);
 
 constexpr Integrator both_integrators[] = {Integrator::explicit_euler, Integrator::runge_kutta_4};
 constexpr ContactModel both_models[] = {ContactModel::coulomb, ContactModel::course};
