@@ -57,6 +57,16 @@ quietly "$python" -m venv "$place/user"
 quietly "$place/user/bin/pip" install "${offline[@]}" aspic --find-links "$place/wheel"
 installed=$("$place/user/bin/pip" list --disable-pip-version-check --format=freeze | grep -vE '^(pip|setuptools|wheel)==' | cut -d= -f1 | sort | tr '\n' ' ')
 [ "$installed" = "aspic nanobind-backend numpy " ] || { echo "Installing aspic brought $installed"; exit 1; }
+# One wheel for every Python: another one than the builder's, if there is one.
+for other in python3.1{0..4}; do
+  [ "$("$other" -c 'import sys; print(sys.version_info[:2])' 2>/dev/null)" != "$("$python" -c 'import sys; print(sys.version_info[:2])')" ] || continue
+  "$other" -m venv "$place/second" >/dev/null 2>&1 || continue
+  quietly "$place/second/bin/pip" install --quiet --disable-pip-version-check "$wheel"
+  got=$(cd "$place" && "$place/second/bin/python" -c "$first")
+  [ "$got" = "$wanted" ] || { echo "With $other the hash is $got, the program's $wanted."; exit 1; }
+  echo "$other: the same wheel, the same hash"
+  break
+done
 quietly "$place/user/bin/pip" install "${offline[@]}" pytest mypy
 # The checkers have an environment to themselves, since they bring much along.
 quietly "$python" -m venv "$place/checker"
