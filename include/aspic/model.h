@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "aspic/error.h"
@@ -28,9 +29,12 @@ ASPIC_API Result<SharedModel> make_model(const ModelSettings& settings);
 ASPIC_API State initial_state(const Model& model, Precision precision);
 
 /// Whether a solver of the one model can go over to the other (Solver::set_constants()): both have the same
-/// particles, balls, springs and their classes, lattices, kinds of terrain and of its motion, contact model
+/// particles, balls, springs and their classes, drives of actuators, lattices, kinds of terrain and of its motion, contact model
 /// and integrator. Error (usage): the first of these that differs.
 ASPIC_API Status check_same_topology(const Model& from, const Model& to);
+
+/// Actuators that read a channel of the inputs, by channel: their names, or `actuator[0]`.
+ASPIC_API std::vector<std::string> input_names(const Model& model);
 
 /// Consecutive particles that were made as one body.
 struct ParticleRange {

@@ -19,7 +19,7 @@ namespace aspic {
 /// A key's value: what it is in a file decides the alternative.
 using ParameterValue =
     std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3, std::vector<int>,
-                 std::vector<double>, PinnedSettings, CellLayers, CellPalette>;
+                 std::vector<double>, PinnedSettings, CellLayers, CellPalette, SignalTable>;
 
 /// A row of docs/scene-reference.md.
 struct ParameterInfo {

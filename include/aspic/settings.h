@@ -270,6 +270,71 @@ struct LauncherSettings {
   friend BodyRow row_of(const LauncherSettings&);
 };
 
+/// The course of an actuator's signal w, in periods θ = f·(t − start) + φ.
+enum class Signal {
+  sine,      ///< sin 2πθ
+  square,    ///< 1 in the first half of a period, −1 in the second
+  triangle,  ///< 0 at 0, 1 at ¼, −1 at ¾
+  table,     ///< linear between the points of ActuatorSettings::table, again and again
+  input      ///< a channel of the inputs (aspic/inputs.h), which knows no phase
+};
+
+/// Every signal, in the order in which they are listed for users.
+inline constexpr Named<Signal> actuator_signals[] = {{Signal::sine, "sine"},
+                                                     {Signal::square, "square"},
+                                                     {Signal::triangle, "triangle"},
+                                                     {Signal::table, "table"},
+                                                     {Signal::input, "input"}};
+
+/// An axis of a body's own frame, before it is turned.
+enum class BodyAxis { none, x, y, z };
+
+/// Which way an actuator stretches: the first, BodyAxis::none, is every way alike.
+inline constexpr Named<BodyAxis> actuator_axes[] = {
+    {BodyAxis::none, "all"}, {BodyAxis::x, "x"}, {BodyAxis::y, "y"}, {BodyAxis::z, "z"}};
+
+/// Along which axis a phase grows.
+inline constexpr Named<BodyAxis> phase_axes[] = {
+    {BodyAxis::none, "none"}, {BodyAxis::x, "x"}, {BodyAxis::y, "y"}, {BodyAxis::z, "z"}};
+
+/// Points [θ, w] of a signal: θ in periods, from 0, ascending; the last one's is the length of the table.
+using SignalTable = std::vector<std::array<double, 2>>;
+
+/// Which cells and springs of its bodies an actuator acts on: those that pass all that is given. Cells are those
+/// of cubes and bodies of cells; springs of cloths and nets count as cells, with their middles.
+struct SelectSettings {
+  std::vector<std::string> materials = {};  ///< names of [[material]]; none: any
+  std::optional<BoxSettings> box = {};      ///< has the middle of the cell, in the body's own frame [m]
+  CellLayers voxels = {};                   ///< a mask as VoxelsSettings::layers; none: all cells
+  std::vector<std::string> springs = {};    ///< names of SpringType; none: all
+};
+
+/// The phase φ of a signal [cycles]: offset − x/wavelength + that of the cell, where x is the cell's middle along an
+/// axis, from the body's centre. So a wave runs towards the axis' positive end where the wavelength is positive.
+struct PhaseSettings {
+  double offset = 0.0;              ///< [cycles]
+  BodyAxis along = BodyAxis::none;  ///< none: the same everywhere
+  double wavelength = 1.0;          ///< [m], not 0; with `along`
+  /// One number for each cell of the layers: "nx ny nz: …", ordered by x, y and z; empty: 0.
+  std::string cells = {};
+};
+
+/// Makes springs' rest lengths follow a signal: r(t) = r₀·(1 + a·w(t)). docs/actuation.md has the law.
+struct ActuatorSettings {
+  std::string name = {};                    ///< unique where it is not empty
+  std::vector<std::string> bodies = {};     ///< names, or `cube[0]`; none: every body of particles
+  SelectSettings select = {};               ///< everything by default
+  BodyAxis axis = BodyAxis::none;           ///< stretches that way alone; none: all ways alike
+  double amplitude = 0.1;                   ///< a, of rest length; without `volume_change`
+  std::optional<double> volume_change = {};  ///< v at w = 1: 1 + v = (1 + a)³, along one axis 1 + a
+  Signal signal = Signal::sine;             ///< w
+  double frequency = 1.0;                   ///< f [Hz], ≥ 0
+  SignalTable table = {{0.0, 0.0}, {0.25, 1.0}, {0.75, -1.0}, {1.0, 0.0}};  ///< with Signal::table
+  PhaseSettings phase = {};                 ///< 0 by default
+  double start = 0.0;                       ///< [s] before which w is 0, ≥ 0
+  double ramp = 0.0;                        ///< [s] in which w grows to its full size, ≥ 0
+};
+
 /// Everything the physics needs from a scene.
 struct ModelSettings {
   SimulationSettings simulation;            ///< time step, method and gravity
@@ -282,6 +347,7 @@ struct ModelSettings {
   std::vector<ClothSettings> cloths;        ///< rectangles
   std::vector<BallSettings> balls;          ///< there from step 0
   std::vector<LauncherSettings> launchers;  ///< their balls come one by one
+  std::vector<ActuatorSettings> actuators;  ///< several may act on one cell: what they add to it is added up
 };
 
 /// The kinds of bodies, in the order in which the model makes them and files list them.
@@ -294,6 +360,7 @@ ASPIC_API std::string_view name_of(Integrator integrator);
 ASPIC_API std::string_view name_of(ContactModel model);
 ASPIC_API std::string_view name_of(SpringType type);
 ASPIC_API std::string_view name_of(Pieces pieces);
+ASPIC_API std::string_view name_of(Signal signal);
 ASPIC_API std::string_view name_of(TerrainShape shape);
 
 }  // namespace aspic

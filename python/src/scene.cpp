@@ -3,6 +3,7 @@
 #include <aspic/parameters.h>
 #include <aspic/run.h>
 #include <aspic/scene.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>

@@ -190,6 +190,10 @@ bool check_boxes(const Field& f, std::vector<std::string>& ticked) {
 }
 
 std::optional<Value> widget(const Field& f, std::vector<std::string> value) {
+  if (f.parameter.type == ParameterType::names) {  // as the file has them
+    ImGui::TextUnformatted(fmt::format("{}", fmt::join(value, ", ")).c_str());
+    return std::nullopt;
+  }
   return check_boxes(f, value) ? std::optional<Value>(value) : std::nullopt;
 }
 
@@ -199,6 +203,12 @@ std::optional<Value> widget(const Field&, const CellLayers& layers) {
   ImGui::TextUnformatted(fmt::format("{} × {} × {} cells", any ? layers.front().front().size() : 0,
                                      layers.size(), any ? layers.front().size() : 0)
                              .c_str());
+  return std::nullopt;
+}
+
+/// How many points there are; a file changes them.
+std::optional<Value> widget(const Field&, const SignalTable& points) {
+  ImGui::TextUnformatted(fmt::format("{} points", points.size()).c_str());
   return std::nullopt;
 }
 

@@ -106,7 +106,7 @@ class Balls {
     const BallPhase<T>& start;
 
     /// a(x, v) of every ball [m/s²].
-    Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
+    Field<T> acceleration(const Field<T>& x, const Field<T>& v, double /*share*/) const {
       const bool course = balls.model_->contact.model == ContactModel::course;
       Field<T> a(3, x.cols());
       for (Eigen::Index b = 0; b < x.cols(); ++b) {

@@ -57,7 +57,8 @@ class Dynamics {
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
   }
 
-  /// The step from the state of this number begins: moving ground takes its places at both ends of it.
+  /// The step from the state of this number begins: moving ground takes its places at both ends of it, rest lengths
+  /// follow their signals from then on.
   void begin_step(std::uint64_t step) {
     step_ = step;
     for (Ground<T>& ground : grounds_) ground.begin_step(model_->simulation.timestep, step);
@@ -70,9 +71,10 @@ class Dynamics {
   void set_stop_flag(const std::atomic<bool>* flag) { flag_ = flag; }
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
-  /// f(x, v) [N], one column per particle; of a step with BodyContact that of StepDynamics instead.
-  Field<T> force(const Field<T>& x, const Field<T>& v) const {
-    Field<T> f = force_without_contact(x, v);
+  /// f(x, v) [N], one column per particle, `share` of the step after its start; of a step with BodyContact that of
+  /// StepDynamics instead.
+  Field<T> force(const Field<T>& x, const Field<T>& v, double share = 0.0) const {
+    Field<T> f = force_without_contact(x, v, share);
     add_contact_force(x, v, f);
     return f;
   }
@@ -95,7 +97,9 @@ class Dynamics {
     for (const Pull& pull : inputs.pulls)
       if (!pull.ball) pulls_.emplace_back(pull);
     inverse_mass_ = Runs<T>(inverse_mass_under(*model_, inputs));
+    channels_ = inputs.channels;
   }
+  const std::vector<double>& channels() const { return channels_; }
   /// Bytes it holds on the heap.
   std::uint64_t bytes() const {
     return mass_.bytes() + inverse_mass_.bytes() + classes_.capacity() * sizeof(SpringConstants<T>) +
@@ -111,9 +115,22 @@ class Dynamics {
   T mass(Eigen::Index i) const { return mass_[static_cast<std::size_t>(i)]; }
   T inverse_mass(Eigen::Index i) const { return inverse_mass_[static_cast<std::size_t>(i)]; }
   const SpringConstants<T>& spring_class(const Spring& spring) const { return classes_[spring.spring_class]; }
+  /// Constants of all spring classes this share of the step after its start: actuated ones have the rest length that
+  /// they have then.
+  std::vector<SpringConstants<T>> classes_at(double share) const {
+    std::vector<SpringConstants<T>> classes = classes_;
+    if (model_->actuation.empty()) return classes;
+    RestLengths lengths(*model_);
+    std::size_t n = 0;
+    for (const double r : lengths.at(step_, share, channels_))
+      classes[model_->actuation.classes[n++].spring_class].r = static_cast<T>(r);
+    return classes;
+  }
 
   /// a(x, v) = w·f(x, v) [m/s²], without the ground's reaction in the Coulomb model, which belongs to a step.
-  Field<T> acceleration(const Field<T>& x, const Field<T>& v) const { return weighed(force(x, v)); }
+  Field<T> acceleration(const Field<T>& x, const Field<T>& v, double share = 0.0) const {
+    return weighed(force(x, v, share));
+  }
 
   /// w·f [m/s²]
   Field<T> weighed(Field<T> f) const {
@@ -165,12 +182,13 @@ class Dynamics {
 
   /// m·g, then the springs, then the pulls. Springs are sorted by (a, b), so each particle's sum runs over
   /// its springs in ascending neighbour index.
-  Field<T> force_without_contact(const Field<T>& x, const Field<T>& v) const {
+  Field<T> force_without_contact(const Field<T>& x, const Field<T>& v, double share = 0.0) const {
     Field<T> f(3, x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass(i) * gravity_;
     if (interrupted()) return f;
+    const std::vector<SpringConstants<T>> classes = classes_at(share);
     for (const Spring& spring : springs_of(*model_)) {
-      const Vector<T> on_a = spring_force<T>(classes_[spring.spring_class], x.col(spring.a), v.col(spring.a),
+      const Vector<T> on_a = spring_force<T>(classes[spring.spring_class], x.col(spring.a), v.col(spring.a),
                                              x.col(spring.b), v.col(spring.b));
       f.col(spring.a) += on_a;
       f.col(spring.b) -= on_a;
@@ -199,6 +217,7 @@ class Dynamics {
   std::vector<Ground<T>> grounds_;
   std::vector<PullConstants<T>> pulls_;
   Runs<T> mass_, inverse_mass_;
+  std::vector<double> channels_;  // of the inputs
   std::uint64_t step_ = 0;
 };
 

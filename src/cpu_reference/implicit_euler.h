@@ -111,6 +111,7 @@ class ImplicitEuler final : public Method<T> {
 
   // Of the step under way.
   const Phase<T>* s_ = nullptr;    ///< where it began
+  std::vector<SpringConstants<T>> classes_;  ///< at its end
   Field<T> held_;                  ///< contact force of the course model [N]
   bool touching_ = false;          ///< whether bodies may touch in it
   Field<T> start_force_;           ///< start_force() [N]
@@ -195,7 +196,7 @@ Trial<T> ImplicitEuler<T>::evaluate() {
     // Not from a rounded x': the difference of the positions is exact where they are close.
     const Vector<T> v = trial_.col(spring.a) - trial_.col(spring.b);
     const Vector<T> e = (s.x.col(spring.a) - s.x.col(spring.b)) + h_ * v;
-    const auto [on_a, H] = linearised<T>(dynamics_.spring_class(spring), h_, e, v);
+    const auto [on_a, H] = linearised<T>(classes_[spring.spring_class], h_, e, v);
     f.col(spring.a) += on_a;
     f.col(spring.b) -= on_a;
     blocks[spring.a].add(H);
@@ -326,6 +327,7 @@ T ImplicitEuler<T>::advance(T alpha, bool first) {
 template <class T>
 Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
   s_ = &s;
+  classes_ = dynamics_.classes_at(1.0);
   held_ = dynamics_.held_contact_force(s.x, s.v);
   ahead_.start(s.x);
   meet_bodies(s);

@@ -21,9 +21,9 @@ class StepDynamics {
     if (bodies && bodies->begin_step(dynamics.step(), start_)) bodies_ = bodies;
   }
 
-  /// a(x, v) [m/s²] at any stage of the step.
-  Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
-    Field<T> f = dynamics_.force_without_contact(x, v);
+  /// a(x, v) [m/s²] at the stage that is this share of the step from its start.
+  Field<T> acceleration(const Field<T>& x, const Field<T>& v, double share) const {
+    Field<T> f = dynamics_.force_without_contact(x, v, share);
     if (bodies_ && !dynamics_.interrupted() && bodies_->find(view(x, v))) add_body_contact(f);
     dynamics_.add_contact_force(x, v, f);
     for (const RestingContact<T>& at : resting_)

@@ -25,6 +25,7 @@ std::span<const SettingsList> settings_lists() {
     std::vector<SettingsList> all = {settings_list<&ModelSettings::terrain>("terrain"),
                                      settings_list<&ModelSettings::materials>("material")};
     for (const BodyRow& body : body_rows()) all.push_back(body.list);
+    all.push_back(settings_list<&ModelSettings::actuators>("actuator"));
     return all;
   }();
   return lists;

@@ -79,7 +79,7 @@ BodyRow body_row(std::string_view key, std::string_view size_key, const PinNames
 /// All of them, in the order of body_lists.
 std::span<const BodyRow> body_rows();
 
-/// Every list of a scene file: terrain, materials, then the bodies.
+/// Every list of a scene file: terrain, materials, the bodies, then actuators.
 std::span<const SettingsList> settings_lists();
 
 }  // namespace aspic

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <string>
+#include <vector>
 
 #include "base/result.h"
 
@@ -41,6 +43,15 @@ Status check_pins(const Model& model, Inputs& inputs) {
   return {};
 }
 
+/// Why a channel is one too many.
+std::string unread_channel(const Model& model) {
+  const std::vector<std::string> names = input_names(model);
+  if (names.empty())
+    return "no actuator of the scene has signal = \"input\", so none reads a channel; leave the channels out";
+  return fmt::format("the scene reads {}: that of {}", names.size() == 1 ? "one channel" : fmt::format("{} channels", names.size()),
+                     fmt::join(names, ", "));
+}
+
 }  // namespace
 
 Inputs inputs_of(const std::optional<Pull>& hand) {
@@ -57,6 +68,9 @@ Result<Inputs> rounded_inputs(const Model& model, const Inputs& inputs, Precisio
   if (inputs.channels.size() > most_channels)
     return too_many("channels", inputs.channels.size(), most_channels);
   Inputs taken = inputs;
+  // Without actuators nothing reads channels, and they are kept for whoever does.
+  if (const Actuation& all = model.actuation; !all.actuators.empty() && taken.channels.size() > all.channels)
+    return fail(ErrorCode::usage, "channels[{}]: {}", all.channels, unread_channel(model));
   for (std::size_t n = 0; n < taken.pulls.size(); ++n) {
     auto pull = rounded_pull(model, taken.pulls[n], precision);
     if (!pull) return fail(pull.error(), "pulls[{}]: {}", n, pull.error().what);

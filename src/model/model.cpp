@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/actuators.h"
 #include "model/bodies.h"
 #include "model/integrator.h"
 #include "model/springs.h"
@@ -58,12 +59,19 @@ Result<Model> build_model(const ModelSettings& settings) {
   }
   model.listed_springs.reserve(predicted.listed);
   model.balls.reserve(predicted.balls);
+  for (std::size_t a = 0; a < settings.actuators.size(); ++a) {
+    if (const auto fault = fault_of(settings, a))
+      return fail(ErrorCode::scene_rejected, "actuator[{}].{}: {}", a, fault->key, fault->message);
+  }
+  ActuationBuilder actuation(settings);
   for (const BodyRow& body : body_rows()) {
     for (std::size_t i = 0; i < body.list.size(settings); ++i) {
       if (const Status added = body.add(model, settings, i); !added)
         return fail(added.error(), "{}[{}].{}", body.list.key, i, added.error().what);
+      actuation.add_body(model, body, i);
     }
   }
+  if (!settings.actuators.empty()) actuation.finish(model);
   return model;
 }
 
@@ -109,6 +117,8 @@ Status check_same_topology(const Model& from, const Model& to) {
     differs = "number of balls";
   else if (from.spring_classes.size() != to.spring_classes.size() || from.listed_springs != to.listed_springs)
     differs = "springs";
+  else if (!same_structure(from.actuation, to.actuation))
+    differs = "actuators";
   else if (!std::ranges::equal(from.terrain, to.terrain, of_a_kind))
     differs = "kinds of terrain";
   else if (from.contact.model != to.contact.model)
@@ -167,7 +177,11 @@ ModelCounts& ModelCounts::operator+=(const ModelCounts& other) {
 ModelCounts predict_counts(const ModelSettings& settings) {
   ModelCounts sum;
   for (const BodyRow& body : body_rows()) {
-    for (std::size_t i = 0; i < body.list.size(settings); ++i) sum += body.counts(settings, i);
+    for (std::size_t i = 0; i < body.list.size(settings); ++i) {
+      ModelCounts counts = body.counts(settings, i);
+      if (!settings.actuators.empty() && is_actuated(settings, body, i)) counts.listed = counts.springs();
+      sum += counts;
+    }
   }
   sum.pinned = 0;
   return sum;
@@ -180,7 +194,7 @@ std::uint64_t model_bytes(const Model& model) {
   std::uint64_t bytes = sizeof(Model) + heap(model.terrain) + model.mass.bytes() +
                         model.inverse_mass.bytes() + heap(model.spring_classes) + heap(model.listed_springs) +
                         heap(model.bodies) + model.initial_position.bytes() + model.initial_velocity.bytes() +
-                        heap(model.balls);
+                        heap(model.balls) + model.actuation.bytes();
   for (const Body& body : model.bodies) {
     bytes += heap(body.listed_surface.quads) + heap(body.listed_surface.groups) + heap(body.rods);
     if (body.lattice) bytes += body.lattice->full_cells.capacity() / 8;

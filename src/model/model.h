@@ -15,6 +15,7 @@
 #include "aspic/settings.h"
 #include "aspic/state.h"
 #include "aspic/vec.h"
+#include "model/actuation.h"
 #include "model/lattice.h"
 #include "model/particle_data.h"
 #include "model/quad_mesh.h"
@@ -27,7 +28,7 @@ struct SpringClass {
   SpringType type = SpringType::structural;
   double stiffness = 0.0;    ///< k [N/m]
   double damping = 0.0;      ///< c [N·s/m]
-  double rest_length = 0.0;  ///< r [m]
+  double rest_length = 0.0;  ///< r [m], of actuated ones r₀: rest_lengths() has what it is at a time
   bool cord = false;         ///< resists stretch only
 };
 
@@ -123,6 +124,7 @@ struct Model {
   Places initial_position;
   Runs<Vec3> initial_velocity;  ///< [m/s]
   std::vector<Ball> balls;
+  Actuation actuation;  ///< of which spring classes the rest lengths change, and how
 
   std::uint32_t particle_count() const { return static_cast<std::uint32_t>(mass.size()); }
   std::uint32_t ball_count() const { return static_cast<std::uint32_t>(balls.size()); }

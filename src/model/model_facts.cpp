@@ -20,6 +20,13 @@ std::vector<ParticleRange> particle_ranges(const Model& model) {
   return ranges;
 }
 
+std::vector<std::string> input_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const Actuator& actuator : model.actuation.actuators)
+    if (actuator.signal == Signal::input) names.push_back(actuator.name);
+  return names;
+}
+
 std::vector<double> particle_masses(const Model& model) {
   return {model.mass.begin(), model.mass.end()};
 }

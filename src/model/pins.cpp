@@ -11,11 +11,11 @@ namespace {
 
 /// Where along each axis a name's particles are: at the first or the last lattice point, or anywhere.
 enum class Place { anywhere, first, last };
-using Places = std::array<Place, 3>;
+using PlacesByAxis = std::array<Place, 3>;
 
 /// The places that the name of a side or a corner speaks of; nothing for a name that is unknown.
-std::optional<Places> places_of(std::span<const Side> sides, std::string_view name) {
-  Places places = {Place::anywhere, Place::anywhere, Place::anywhere};
+std::optional<PlacesByAxis> places_of(std::span<const Side> sides, std::string_view name) {
+  PlacesByAxis places = {Place::anywhere, Place::anywhere, Place::anywhere};
   std::size_t parts = 0;
   for (std::size_t start = 0; start <= name.size();) {
     const std::size_t end = std::min(name.find('-', start), name.size());

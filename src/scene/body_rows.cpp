@@ -16,18 +16,6 @@ Parameter pins(std::string_view body, Parameter p) {
   return p;
 }
 
-/// A row of a text or table whose emptiness is the absence of the key.
-template <class Access>
-Parameter unless_empty(std::string_view meaning_of_absence, std::string_view path, Access access,
-                       std::string_view meaning) {
-  Parameter p = fixed(absent(meaning_of_absence, row(path, access, meaning)));
-  p.read = [](const Parameter& self, const Scene& scene, std::size_t index) -> std::optional<Value> {
-    const auto& field = Access{}(scene, index);
-    return field.empty() ? std::nullopt : to_value(self, field);
-  };
-  return p;
-}
-
 // Stiffness and damping of a body's springs of one type; `which` ends "the springs …".
 #define SPRINGS(list, type, field, which)                                           \
   row(list "[]." type ".stiffness", "N/m", stiffness, FIELD(model.field.stiffness), \

@@ -128,6 +128,33 @@ std::optional<Value> palette_in(std::string_view text) {
   return Value(palette);
 }
 
+std::optional<std::vector<std::string>> words_in(std::string_view text) {
+  const auto elements = elements_of(text);
+  if (!elements) return std::nullopt;
+  std::vector<std::string> words;
+  for (const std::string_view element : *elements) {
+    auto word = word_in(element);
+    if (!word) return std::nullopt;
+    words.push_back(*std::move(word));
+  }
+  return words;
+}
+
+std::optional<Value> points_in(std::string_view text) {
+  SignalTable points;
+  if (!text.starts_with('[') || !text.ends_with(']')) return std::nullopt;
+  text = text.substr(1, text.size() - 2);
+  while (!text.empty()) {
+    const std::size_t end = text.find(']');
+    const auto point = end == std::string_view::npos ? std::nullopt : numbers_in<double>(text.substr(0, end + 1), 2);
+    if (!point) return std::nullopt;
+    points.push_back({(*point)[0], (*point)[1]});
+    text.remove_prefix(end + 1);
+    if (text.starts_with(", ")) text.remove_prefix(2);
+  }
+  return Value(points);
+}
+
 template <class T>
 std::optional<Value> value_or_none(const std::optional<T>& found) {
   return found ? std::optional<Value>(*found) : std::nullopt;
@@ -161,7 +188,10 @@ std::optional<Value> value_in(const Parameter& p, std::string_view text) {
     case ParameterType::palette:
       return palette_in(text);
     case ParameterType::words:
-      return std::nullopt;  // what is drawn alone has them
+    case ParameterType::names:
+      return value_or_none(words_in(text));
+    case ParameterType::points:
+      return points_in(text);
   }
   return std::nullopt;
 }

@@ -315,6 +315,12 @@ class Argument {
   const toml::node* value_ = nullptr;
 };
 
+/// Keys of an actuator of which it has one or the other.
+constexpr std::pair<std::string_view, std::string_view> exclusive_actuator_keys[] = {
+    {"actuator[].amplitude", "actuator[].volume-change"},
+    {"actuator[].phase.cells", "actuator[].phase.file"},
+    {"actuator[].select.voxels", "actuator[].select.file"}};
+
 void apply_to(const Keys& keys, const Arguments& arguments, Reader& reader,
               std::vector<diagnostics::Source>& sources) {
   const auto& cubes = reader.scene().model.cubes;
@@ -340,6 +346,12 @@ void apply_to(const Keys& keys, const Arguments& arguments, Reader& reader,
          {"voxels[].layers", "voxels[].file", "voxels[].size", "voxels[].skin"}) {
       reader.prefer_argument(path_text("voxels[].mesh", v), path_text(other, v));
       reader.prefer_argument(path_text(other, v), path_text("voxels[].mesh", v));
+    }
+  }
+  for (std::size_t a = 0; a < reader.scene().model.actuators.size(); ++a) {
+    for (const auto& [one, other] : exclusive_actuator_keys) {
+      reader.prefer_argument(path_text(one, a), path_text(other, a));
+      reader.prefer_argument(path_text(other, a), path_text(one, a));
     }
   }
   for (std::size_t c = 0; c < cubes.size(); ++c) {

@@ -116,6 +116,8 @@ constexpr ParameterType type_of() {
   if constexpr (std::is_same_v<Field, PinnedSettings>) return ParameterType::pinned;
   if constexpr (std::is_same_v<Field, CellLayers>) return ParameterType::layers;
   if constexpr (std::is_same_v<Field, CellPalette>) return ParameterType::palette;
+  if constexpr (std::is_same_v<Field, std::vector<std::string>>) return ParameterType::names;
+  if constexpr (std::is_same_v<Field, SignalTable>) return ParameterType::points;
   return ParameterType::number;
 }
 
@@ -204,6 +206,18 @@ inline Parameter absent(std::string_view meaning_of_absence, Parameter p) {
   return p;
 }
 
+/// A row of a text, list or table whose emptiness is the absence of the key.
+template <class Access>
+Parameter unless_empty(std::string_view meaning_of_absence, std::string_view path, Access access,
+                       std::string_view meaning) {
+  Parameter p = fixed(absent(meaning_of_absence, row(path, access, meaning)));
+  p.read = [](const Parameter& self, const Scene& scene, std::size_t index) -> std::optional<Value> {
+    const auto& field = Access{}(scene, index);
+    return field.empty() ? std::nullopt : to_value(self, field);
+  };
+  return p;
+}
+
 // Ends of ranges that a formula does not give keep every product the solvers form far inside single
 // precision.
 inline constexpr double far = 1e6;        // m
@@ -238,6 +252,9 @@ namespace aspic {
 
 /// Rows of the table of materials that have names.
 std::vector<Parameter> material_parameters();
+
+/// Rows of the tables that describe actuators.
+std::vector<Parameter> actuator_parameters();
 
 /// Rows of the tables that describe bodies, kind by kind as in body_rows().
 std::vector<Parameter> body_parameters();

@@ -78,6 +78,11 @@ std::vector<double> numbers_of(const Value& value) {
   if (const auto* v = std::get_if<Vec3>(&value)) return {v->x, v->y, v->z};
   if (const auto* counts = std::get_if<std::vector<int>>(&value)) return {counts->begin(), counts->end()};
   if (const auto* several = std::get_if<std::vector<double>>(&value)) return *several;
+  if (const auto* points = std::get_if<SignalTable>(&value)) {
+    std::vector<double> all;
+    for (const auto& [t, w] : *points) all.insert(all.end(), {t, w});
+    return all;
+  }
   return {};
 }
 
@@ -156,6 +161,12 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index) 
       return !scene.model.cubes[index].particles.has_value();
     case Belonging::box:
       return scene.model.cubes[index].particles.has_value();
+    case Belonging::amplitude:
+      return !scene.model.actuators[index].volume_change.has_value();
+    case Belonging::wave:
+      return scene.model.actuators[index].phase.along != BodyAxis::none;
+    case Belonging::signal_table:
+      return scene.model.actuators[index].signal == Signal::table;
   }
   return false;
 }
@@ -219,10 +230,13 @@ std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
   const std::vector<double> numbers = numbers_of(value);
   std::vector<std::string> words;
   if (p.type == ParameterType::word) words = {std::get<std::string>(value)};
-  if (const auto* list = std::get_if<std::vector<std::string>>(&value)) words = *list;
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value); list && p.type == ParameterType::words)
+    words = *list;
   if (const auto* pinned = std::get_if<PinnedSettings>(&value)) words = pinned->names;
   const bool several = !std::holds_alternative<std::string>(value) && numbers.size() != 1;
-  const auto at = [&](std::size_t i) { return several ? std::optional(i) : std::nullopt; };
+  // Two numbers are a point.
+  const std::size_t together = p.type == ParameterType::points ? 2 : 1;
+  const auto at = [&](std::size_t i) { return several ? std::optional(i / together) : std::nullopt; };
 
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (auto message = complaint_about(p, numbers[i])) return Complaint{*message, at(i)};
@@ -271,6 +285,10 @@ std::string allowed_text(const Parameter& p) {
       return "an array of layers, each an array of rows, which are strings of cells";
     case ParameterType::palette:
       return "a table of materials' names by cell, such as { 1 = \"muscle\" }";
+    case ParameterType::names:
+      return "a string, or an array of strings";
+    case ParameterType::points:
+      return fmt::format("an array of points [t, w], each {}", range_text(p));
   }
   return "";
 }
@@ -291,6 +309,8 @@ std::string default_text(const Parameter& p) {
       place && p.belonging != Belonging::explicit_springs)
     place->emplace();
   if (p.belonging == Belonging::motion) scene.model.terrain[0].motion.emplace();
+  if (p.belonging == Belonging::wave) scene.model.actuators[0].phase.along = BodyAxis::x;
+  if (p.belonging == Belonging::signal_table) scene.model.actuators[0].signal = Signal::table;
   return toml_value(*p.get(scene, 0));
 }
 

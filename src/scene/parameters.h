@@ -30,7 +30,9 @@ enum class ParameterType {
   numbers,  ///< std::vector<double>, Parameter::components of them; the range holds for each
   pinned,   ///< PinnedSettings: names of sides and corners, local indices
   layers,   ///< CellLayers
-  palette   ///< CellPalette
+  palette,  ///< CellPalette
+  names,    ///< std::vector<std::string>, free; in files one string is a list of one
+  points    ///< SignalTable; the range holds for each number
 };
 
 /// A parameter's value, in the alternative its type names.
@@ -50,7 +52,8 @@ struct Range {
 /// When a key has a meaning. Geometry belongs to the shapes that have the key (terrain_shapes), the keys of a
 /// motion to terrain that has one; keys of explicit springs and of a material exclude each other by what the
 /// body is made of, a material's numbers and its name by whether it is one of [[material]], and those of
-/// equal edges and of a box by how many particles are along its edges.
+/// equal edges and of a box by how many particles are along its edges. An actuator has an amplitude unless it has a
+/// volume change, a wavelength if its phase is that of a wave, a table if that is its signal.
 enum class Belonging {
   always,
   geometry,
@@ -60,7 +63,10 @@ enum class Belonging {
   material_numbers,
   material_name,
   equal_edges,
-  box
+  box,
+  amplitude,
+  wave,
+  signal_table
 };
 
 /// One key.

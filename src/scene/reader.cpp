@@ -82,6 +82,14 @@ bool take_layer(CellLayers& layers, const toml::node& element) {
   return true;
 }
 
+bool take_point(SignalTable& points, const toml::node& element) {
+  const toml::array* const pair = element.as_array();
+  if (!pair || pair->size() != 2) return false;
+  const auto t = number_of((*pair)[0]), w = number_of((*pair)[1]);
+  if (t && w) points.push_back({*t, *w});
+  return t && w;
+}
+
 Converted palette_of(const Parameter& p, const toml::table& table) {
   CellPalette palette;
   for (const auto& [cell, name] : table) {
@@ -118,6 +126,13 @@ Converted converted(const Parameter& p, const toml::node& node) {
       break;
     case ParameterType::palette:
       if (const auto* const table = node.as_table()) return palette_of(p, *table);
+      break;
+    case ParameterType::names:
+      if (const auto* x = node.as_string()) return Value(std::vector<std::string>{x->get()});
+      if (array) return gathered(p, *array, std::vector<std::string>(), take_word);
+      break;
+    case ParameterType::points:
+      if (array) return gathered(p, *array, SignalTable(), take_point);
       break;
     case ParameterType::vector:
     case ParameterType::counts:
@@ -168,6 +183,14 @@ void Reader::read_member(std::string_view path, std::size_t index, std::string_v
   const bool plain = key.find_first_of("[].") == std::string::npos && !key.empty();
   if (!plain) return fail(at, diagnostics::unknown_key(path, key));
   const PathKind kind = path_kind(child);
+  if (child == "actuator[].phase" && (value.is_number() || value.is_string())) {
+    // A number, or a file of one for each cell, in the place of the table.
+    forget(path_text(child, index));
+    scene_.model.actuators[index].phase = {};
+    return read_member(child, index, value.is_number() ? "offset" : "file", at, value, source);
+  }
+  if (child == "actuator[].select.voxels" && value.is_string())
+    return read_member(path, index, "file", at, value, source);
   Written here = {at, position_of(value.source(), source), elements_of(value, source), {}};
   if (kind == PathKind::unknown) here.problem = {at, diagnostics::unknown_key(path, key)};
   // A value takes the place of a table and all its keys.
@@ -264,7 +287,7 @@ void Reader::read_parameter(const Parameter& p, const toml::node& node, std::siz
                          complaint->message};
     } else {
       p.set(scene_, index, value);
-      if (is_cell_source(p.path)) cell_sources_[path_text(p.path, index)] = value;
+      if (is_cell_source(p.path) || is_actuator_source(p.path)) cell_sources_[path_text(p.path, index)] = value;
     }
   }
   // What was written wrong was written: a shape that has no such key complains about that too.
@@ -312,7 +335,8 @@ Problem Reader::located(const SceneComplaint& complaint) const {
   };
   if (const Written* here = at(complaint.path)) {
     const Position& whole = complaint.of_key ? here->key : here->value;
-    return {complaint.element ? here->elements[*complaint.element] : whole, complaint.message};
+    const bool element = complaint.element && *complaint.element < here->elements.size();
+    return {element ? here->elements[*complaint.element] : whole, complaint.message};
   }
   if (const Written* other = at(complaint.other)) return {other->value, complaint.message};
   // A default is to blame: the nearest table around it, or the scene.

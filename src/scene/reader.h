@@ -56,7 +56,7 @@ class Reader {
   /// Keys of an element of a section, `cube[]`, that were written although a material would decide them.
   std::vector<std::string> explicit_keys(std::string_view section, std::size_t index) const;
 
-  /// Values of the keys that cells come from (is_cell_source()), by path.
+  /// Values of the keys that cells come from (is_cell_source(), is_actuator_source()), by path.
   const std::map<std::string, Value>& cell_sources() const { return cell_sources_; }
   /// What is wrong with the value of a path that was written.
   void blame(const std::string& path, std::string message);
@@ -87,8 +87,15 @@ void read_cell_files(Reader& reader, const std::vector<diagnostics::Source>& sou
 void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources,
                  std::vector<std::string>* notes);
 
+/// A table that was written and no signal, or before it: then it is the signal.
+void choose_signals(Reader& reader);
+/// The same of masks and phases of actuators.
+void read_actuator_files(Reader& reader, const std::vector<diagnostics::Source>& sources);
+
 /// Whether a key of [[voxels]] names where cells come from: it is read once, and no scene has it.
 bool is_cell_source(std::string_view path);
+/// The same of [[actuator]].
+bool is_actuator_source(std::string_view path);
 
 }  // namespace aspic::reader
 

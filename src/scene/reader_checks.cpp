@@ -99,6 +99,26 @@ std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes)
              fmt::format("'{}' follows from the mesh; leave out 'mesh' or '{}'", other, other)});
     }
   }
+  for (std::size_t a = 0; a < scene_.model.actuators.size(); ++a) {
+    const auto either = [&](std::string_view one, std::string_view other, std::string_view message) {
+      const auto first = written_.find(path_text(one, a)), second = written_.find(path_text(other, a));
+      if (first != written_.end() && second != written_.end())
+        problems.push_back({std::max(first->second.key, second->second.key), std::string(message)});
+    };
+    either("actuator[].amplitude", "actuator[].volume-change",
+           "an actuator has either 'amplitude' or 'volume-change', not both; leave out one of them");
+    either("actuator[].phase.cells", "actuator[].phase.file",
+           "an actuator's phases are either 'cells' or a 'file' of them, not both; leave out one of them");
+    either("actuator[].select.voxels", "actuator[].select.file",
+           "a mask is either 'voxels' or a 'file' of them, not both; leave out one of them");
+    const auto table = written_.find(path_text("actuator[].table", a)),
+               signal = written_.find(path_text("actuator[].signal", a));
+    if (table != written_.end() && signal != written_.end() && table->second.key.source == 0 &&
+        signal->second.key.source == 0 && !signal->second.problem &&
+        scene_.model.actuators[a].signal != Signal::table)
+      problems.push_back({table->second.key, "'actuator.table' is the signal \"table\": write signal = \"table\", or "
+                                             "leave 'table' out"});
+  }
   check_materials(problems);
   for (const SceneComplaint& complaint : check_scene(scene_, memory_bytes)) {
     if ((complaint.of_key || !has_problem(complaint.path)) && !has_problem(complaint.other))

@@ -54,6 +54,12 @@ std::string condition(const Parameter& p) {
       return " Not together with `particles`.";
     case Belonging::box:
       return " Instead of `particles-per-edge`.";
+    case Belonging::amplitude:
+      return " Not together with `volume-change`.";
+    case Belonging::wave:
+      return " With `along`.";
+    case Belonging::signal_table:
+      return " With `signal = \"table\"`.";
   }
   return "";
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "model/actuators.h"
 #include "model/bodies.h"
 #include "model/cube.h"
 #include "model/integrator.h"
@@ -123,6 +124,20 @@ void check_materials(const Scene& scene, Complaints& complaints) {
     complaints.push_back({{fmt::format("'voxels.{}': {}", fault->key, fault->message), fault->element},
                           fmt::format("voxels[{}].{}", i, key),
                           path_text("voxels[].file", i)});
+  }
+}
+
+/// Actuators that cannot act as they say.
+void check_actuators(const Scene& scene, Complaints& complaints) {
+  for (std::size_t a = 0; a < scene.model.actuators.size(); ++a) {
+    const auto fault = fault_of(scene.model, a);
+    if (!fault) continue;
+    const std::string_view file = fault->key == "phase.cells"     ? "actuator[].phase.file"
+                                  : fault->key == "select.voxels" ? "actuator[].select.file"
+                                                                  : "";
+    complaints.push_back({{fmt::format("'actuator.{}': {}", fault->key, fault->message), fault->element},
+                          fmt::format("actuator[{}].{}", a, fault->key),
+                          path_text(file, a)});
   }
 }
 
@@ -246,6 +261,7 @@ std::vector<SceneComplaint> check_scene(const Scene& scene, std::optional<std::u
   check_materials(scene, complaints);
   if (!legal) return complaints;
   // These compute with the numbers.
+  check_actuators(scene, complaints);
   check_particles(scene, complaints);
   check_sheets(scene, complaints);
   check_boxes(scene, complaints);

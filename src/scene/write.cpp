@@ -47,6 +47,9 @@ struct Writer {
     for (const T& element : x) all.push_back((*this)(element));
     return fmt::format("[{}]", fmt::join(all, ", "));
   }
+  std::string operator()(const std::array<double, 2>& x) const {
+    return fmt::format("[{}, {}]", number_text(x[0]), number_text(x[1]));
+  }
   std::string operator()(const CellPalette& x) const {
     std::vector<std::string> all;
     for (const auto& [cell, name] : x) {
@@ -84,11 +87,21 @@ std::string wrapped_text(const std::string& text) {
   return lines + "\"\"\"";
 }
 
+/// One name alone where there is one.
+std::string names_text(const Value& value) {
+  const auto& names = std::get<std::vector<std::string>>(value);
+  return names.size() == 1 ? Writer()(names.front()) : Writer()(names);
+}
+
 /// An inline table; of a material that has a name, the name alone.
 std::string inline_text(std::string_view name, std::string_view keys) {
   constexpr std::string_view named = "name = ";
   if (name == "material" && keys.starts_with(named))
     return fmt::format("{} = {}", name, keys.substr(named.size()));
+  // A phase that is the same everywhere is a number.
+  constexpr std::string_view offset = "offset = ", everywhere = ", along = \"none\"";
+  if (name == "phase" && keys.starts_with(offset) && keys.ends_with(everywhere))
+    return fmt::format("{} = {}", name, keys.substr(offset.size(), keys.size() - offset.size() - everywhere.size()));
   return fmt::format("{} = {{ {} }}", name, keys);
 }
 
@@ -126,6 +139,7 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
     }
     const std::string text = p.type == ParameterType::layers ? layers_text(std::get<CellLayers>(*value))
                              : p.path == "voxels[].skin"     ? wrapped_text(std::get<std::string>(*value))
+                             : p.type == ParameterType::names ? names_text(*value)
                                                              : toml_value(*value);
     if (dot == std::string_view::npos) {
       std::string comment(p.unit);
