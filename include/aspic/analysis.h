@@ -20,7 +20,8 @@ namespace aspic {
 /// What a series row holds of one state.
 struct Measures {
   double kinetic = 0.0;  ///< Σ ½ m v², of balls also ½ I ω² [J]
-  /// Σ ½ k (L − r)² [J], of pushes between bodies Σ ½ k (ρ − d)²; a slack cord holds none
+  /// Σ ½ k (L − r)² [J], of actuated springs with the rest length r of the state's time, of pushes between
+  /// bodies Σ ½ k (ρ − d)²; a slack cord holds none
   double elastic = 0.0;
   double gravitational = 0.0;  ///< −Σ m g·x [J], zero at the origin
   Vec3 momentum;               ///< Σ m v [N·s]
@@ -35,18 +36,34 @@ ASPIC_API std::optional<std::string_view> first_not_finite(const Measures& measu
 
 /// Measures a state of the model. Pinned particles count for the potential energies and the height; they do
 /// not move, so they have no part in kinetic energy, momentum and speed. Balls count once they are launched.
-/// The state must have the model's numbers of particles and balls.
-ASPIC_API Measures measure(const Model& model, const State& state);
+/// The state must have the model's numbers of particles and balls. `inputs`: those that hold, for actuators
+/// that read channels.
+ASPIC_API Measures measure(const Model& model, const State& state, const Inputs& inputs = {});
+
+/// What actuators put into springs in the step from one state of the model to the next [J]: −∫ Σ k(L − r) dr,
+/// by the trapezoidal rule; its error is of second order in h. Negative where springs drive signals. `inputs`
+/// are those of the step. Summed over a run it is the work that actuators did; 0 without any.
+ASPIC_API double actuator_work(const Model& model, const State& from, const State& to,
+                               const Inputs& inputs = {});
+
+/// The elastic energy that springs would hold at the largest |w| of their signals, were the body kept as it
+/// is at rest [J]: what a cycle can do at most. 0 without actuators.
+ASPIC_API double largest_actuation_energy(const Model& model);
 
 /// What a state means for its particles and springs, in double precision whatever the state's own. By
 /// particle:
 struct StateQuantities {
-  std::vector<double> speed;          ///< |v| [m/s]
-  std::vector<double> mean_strain;    ///< mean |L/r − 1| of its springs, as pictures show it; 0 without any
-  std::vector<Vec3> force;            ///< net, with contact [N]: zero at rest, and of pinned particles
-  std::vector<Vec3> contact_force;    ///< of terrain [N]; a bounce is an impulse, which no state holds
-  std::vector<std::uint8_t> contact;  ///< 1: it touches terrain; of pinned particles 0
-  std::vector<double> strain;         ///< L/r − 1 by spring, in the order of spring_facts(); 0 where r = 0
+  std::vector<double> speed;        ///< |v| [m/s]
+  std::vector<double> mean_strain;  ///< mean |L/r − 1| of its springs, as pictures show it; 0 without any
+  std::vector<double> mean_actuation;  ///< mean r/r₀ − 1 of its springs; empty without actuators
+  std::vector<Vec3> force;             ///< net, with contact [N]: zero at rest, and of pinned particles
+  std::vector<Vec3> contact_force;     ///< of terrain [N]; a bounce is an impulse, which no state holds
+  std::vector<std::uint8_t> contact;   ///< 1: it touches terrain; of pinned particles 0
+  /// L/r − 1 by spring, in the order of spring_facts(), with the rest length r that it has at the time; 0
+  /// where r = 0
+  std::vector<double> strain;
+  /// r/r₀ − 1 by spring: how far actuators have moved its rest length; empty without any
+  std::vector<double> actuation;
   std::vector<double> tension;  ///< k(L − r) + c·dL/dt [N], positive where it pulls; 0 of a slack cord
 };
 /// `state` has the model's numbers of particles and balls; `inputs` are Solver::inputs().
@@ -107,7 +124,8 @@ enum class StabilityEffort {
 /// done at most; false ends the work, and what it had not reached is bounded instead.
 using StabilityWatch = std::function<bool(double)>;
 
-/// The smallest limit of all bodies. Springs are linearised at rest.
+/// The smallest limit of all bodies. Springs are linearised at rest; of actuated ones with their shortest
+/// rest length, by a bound that is not exact.
 ///
 /// Where all springs of a body have one ratio of damping to stiffness, its modes are those of one operator
 /// with eigenvalues α in (0, α_max], each giving λ² + (αc/m)λ + αk/m = 0: the limit is the minimum over that

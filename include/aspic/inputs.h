@@ -43,8 +43,8 @@ struct Inputs {
   /// Particles that the scene pins and that are free: w = 1/m. Global indices, each once, none of `pinned`.
   std::vector<std::uint32_t> released = {};
   /// Numbers by channel: signals w of the actuators with Signal::input, in the order of input_names()
-  /// (aspic/model.h). Those that are missing are 0; more than a scene with actuators reads are refused. At most
-  /// most_channels.
+  /// (aspic/model.h). Those that are missing are 0; more than a scene with actuators reads are refused. At
+  /// most most_channels.
   std::vector<double> channels = {};
 
   /// Whether nothing acts.

@@ -29,8 +29,8 @@ ASPIC_API Result<SharedModel> make_model(const ModelSettings& settings);
 ASPIC_API State initial_state(const Model& model, Precision precision);
 
 /// Whether a solver of the one model can go over to the other (Solver::set_constants()): both have the same
-/// particles, balls, springs and their classes, drives of actuators, lattices, kinds of terrain and of its motion, contact model
-/// and integrator. Error (usage): the first of these that differs.
+/// particles, balls, springs and their classes, drives of actuators, lattices, kinds of terrain and of its
+/// motion, contact model and integrator. Error (usage): the first of these that differs.
 ASPIC_API Status check_same_topology(const Model& from, const Model& to);
 
 /// Actuators that read a channel of the inputs, by channel: their names, or `actuator[0]`.

@@ -300,8 +300,8 @@ inline constexpr Named<BodyAxis> phase_axes[] = {
 /// Points [θ, w] of a signal: θ in periods, from 0, ascending; the last one's is the length of the table.
 using SignalTable = std::vector<std::array<double, 2>>;
 
-/// Which cells and springs of its bodies an actuator acts on: those that pass all that is given. Cells are those
-/// of cubes and bodies of cells; springs of cloths and nets count as cells, with their middles.
+/// Which cells and springs of its bodies an actuator acts on: those that pass all that is given. Cells are
+/// those of cubes and bodies of cells; springs of cloths and nets count as cells, with their middles.
 struct SelectSettings {
   std::vector<std::string> materials = {};  ///< names of [[material]]; none: any
   std::optional<BoxSettings> box = {};      ///< has the middle of the cell, in the body's own frame [m]
@@ -309,8 +309,9 @@ struct SelectSettings {
   std::vector<std::string> springs = {};    ///< names of SpringType; none: all
 };
 
-/// The phase φ of a signal [cycles]: offset − x/wavelength + that of the cell, where x is the cell's middle along an
-/// axis, from the body's centre. So a wave runs towards the axis' positive end where the wavelength is positive.
+/// The phase φ of a signal [cycles]: offset − x/wavelength + that of the cell, where x is the cell's middle
+/// along an axis, from the body's centre. So a wave runs towards the axis' positive end where the wavelength
+/// is positive.
 struct PhaseSettings {
   double offset = 0.0;              ///< [cycles]
   BodyAxis along = BodyAxis::none;  ///< none: the same everywhere
@@ -321,18 +322,18 @@ struct PhaseSettings {
 
 /// Makes springs' rest lengths follow a signal: r(t) = r₀·(1 + a·w(t)). docs/actuation.md has the law.
 struct ActuatorSettings {
-  std::string name = {};                    ///< unique where it is not empty
-  std::vector<std::string> bodies = {};     ///< names, or `cube[0]`; none: every body of particles
-  SelectSettings select = {};               ///< everything by default
-  BodyAxis axis = BodyAxis::none;           ///< stretches that way alone; none: all ways alike
-  double amplitude = 0.1;                   ///< a, of rest length; without `volume_change`
+  std::string name = {};                     ///< unique where it is not empty
+  std::vector<std::string> bodies = {};      ///< names, or `cube[0]`; none: every body of particles
+  SelectSettings select = {};                ///< everything by default
+  BodyAxis axis = BodyAxis::none;            ///< stretches that way alone; none: all ways alike
+  double amplitude = 0.1;                    ///< a, of rest length; without `volume_change`
   std::optional<double> volume_change = {};  ///< v at w = 1: 1 + v = (1 + a)³, along one axis 1 + a
-  Signal signal = Signal::sine;             ///< w
-  double frequency = 1.0;                   ///< f [Hz], ≥ 0
+  Signal signal = Signal::sine;              ///< w
+  double frequency = 1.0;                    ///< f [Hz], ≥ 0
   SignalTable table = {{0.0, 0.0}, {0.25, 1.0}, {0.75, -1.0}, {1.0, 0.0}};  ///< with Signal::table
-  PhaseSettings phase = {};                 ///< 0 by default
-  double start = 0.0;                       ///< [s] before which w is 0, ≥ 0
-  double ramp = 0.0;                        ///< [s] in which w grows to its full size, ≥ 0
+  PhaseSettings phase = {};                                                 ///< 0 by default
+  double start = 0.0;  ///< [s] before which w is 0, ≥ 0
+  double ramp = 0.0;   ///< [s] in which w grows to its full size, ≥ 0
 };
 
 /// Everything the physics needs from a scene.

@@ -72,7 +72,7 @@ std::uint64_t Simulation::read_into(const StateView& view) {
 }
 
 Measures Simulation::measures() {
-  return alone([&] { return measure(*model_, take(backend_.solver->state())); });
+  return alone([&] { return measure(*model_, take(backend_.solver->state()), backend_.solver->inputs()); });
 }
 
 StateQuantities Simulation::quantities() {

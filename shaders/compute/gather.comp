@@ -19,6 +19,7 @@ void main() {
   if (place >= item_end(particle_count) || halted()) return;
   uint i = place;
 #endif
+  use_lengths(step_index, stage_index);
   Particle p = stage_state[AT(i)];
   precise vec3 f = p.velocity.w * gravity.xyz;
   Walk w = walk_words(place);

@@ -47,6 +47,7 @@ void main() {
   if (enter() != PHASE_CG) return;
   uint i = item_index();
   precise vec4 element = vec4(0.0);
+  use_lengths(ended_steps, LENGTHS_AT_END);
   if (i < item_end(particle_count)) element = apply(i);
   precise vec4 total;
   if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;

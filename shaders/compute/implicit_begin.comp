@@ -43,6 +43,7 @@ void main() {
 #endif
   uint i = item_index();
   if (i < item_end(particle_count)) {
+    use_lengths(ended_steps, LENGTHS_AT_START);
     Particle p = state(i);
     set_own(OWN_HELD, i, held_contact_force(i, p));
     trial[AT(i)] = vec4(p.velocity.xyz, 0.0);

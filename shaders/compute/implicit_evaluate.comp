@@ -107,6 +107,7 @@ void main() {
   if (i == 0u && phase == PHASE_CG) solve.prescribing = 0u;  // it took the round before
   if (!evaluates) return;
   precise vec4 element = vec4(0.0);
+  use_lengths(ended_steps, LENGTHS_AT_END);
   if (i < item_end(particle_count)) element = evaluate(i);
   precise vec4 total;
   if (reduce(element, total) && gl_LocalInvocationIndex == 0u) judge(total);

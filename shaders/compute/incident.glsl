@@ -2,7 +2,11 @@
 //   for (Walk w = walk(i); w.at < w.end; ++w.at) { Link link; if (!link_at(w, link)) continue; … }
 // A word is neighbour << class_bits | class; on the force path per-spring it is the spring's, see sum_springs.comp.
 // With ASPIC_LATTICES those of lattices follow from the indices; ASPIC_LISTED: there are particles outside them too.
+#include "compute/spring_classes.glsl"
+
+#ifndef ASPIC_ACTUATED
 layout(std430, binding = BINDING_INCIDENT_START) restrict readonly buffer IncidentStart { uint incident_start[]; };
+#endif
 layout(std430, binding = BINDING_INCIDENT) restrict readonly buffer Incident { uint incident[]; };
 
 #ifdef ASPIC_LATTICES
@@ -30,8 +34,8 @@ struct Link {
 // The walk over the words of the particle at this place among those that have any.
 Walk walk_words(uint place) {
   uint slice = place / SPRING_SLICE;
-  uint first = incident_start[slice];
-  uint count = (incident_start[slice + 1u] - first) / SPRING_SLICE;
+  uint first = incident_start[INCIDENT_HEAD + slice];
+  uint count = (incident_start[INCIDENT_HEAD + slice + 1u] - first) / SPRING_SLICE;
 #ifdef ASPIC_LATTICES
   return Walk(0u, count, AT_WORD(first) + place % SPRING_SLICE, 0u, 0u, 0, 0, 0u);
 #else
@@ -44,7 +48,7 @@ uint word_at(Walk w) { return incident[w.first + w.at * SPRING_SLICE]; }
 // False where a walk over words has no spring.
 bool listed_link_at(Walk w, out Link link) {
   uint word = word_at(w);
-  link = Link(word >> class_bits, spring_classes[word & ((1u << class_bits) - 1u)]);
+  link = Link(word >> class_bits, spring_class(word & ((1u << class_bits) - 1u)));
   return word != NO_SPRING;
 }
 
@@ -70,7 +74,7 @@ bool link_at(Walk w, out Link link) {
   uint word = directions[w.at].word;
   ivec3 o = ivec3((uvec3(word) >> uvec3(0u, 3u, 6u)) & 7u) - 2;
   uint bits = step_bits(o.x, o.y, o.z);
-  link = Link(w.particle + uint(o.x * w.plane_stride + o.y * w.row_stride + o.z), spring_classes[w.first_class + (word >> 9)]);
+  link = Link(w.particle + uint(o.x * w.plane_stride + o.y * w.row_stride + o.z), spring_class(w.first_class + (word >> 9)));
   return (w.steps & bits) == bits;
 }
 #else

@@ -8,6 +8,7 @@
 #include "compute/link_force.glsl"
 #include "compute/stage.glsl"
 #include "compute/lattices.glsl"
+#include "compute/spring_classes.glsl"
 #include "compute/lattice_rows.glsl"
 
 // Which lattice run `run` of all is in, and which of its runs it becomes.
@@ -33,7 +34,8 @@ void main() {
   int last_of_lattice = int(lattice.first_particle + particles_of(lattice) - 1u);
   int first_of_run = first_of_lattice + int(at);
   int row_stride = int(size.z), plane_stride = int(size.y * size.z);
-  for (uint c = 0u; c < LATTICE_CLASSES; ++c) classes[c] = spring_classes[lattice.first_class + c];
+  use_lengths(step_index, stage_index);
+  for (uint c = 0u; c < LATTICE_CLASSES; ++c) classes[c] = spring_class(lattice.first_class + c);
   uvec3 place = place_in(size, at);
   EACH_OF_RUN(TAKE)
   EACH_LINK

@@ -6,6 +6,7 @@
 #include "compute/link_force.glsl"
 #include "compute/stage.glsl"
 #include "compute/lattices.glsl"
+#include "compute/spring_classes.glsl"
 
 // The tile and two particles on each side of it.
 #define SEEN_I (TILE_I + 4)
@@ -73,7 +74,8 @@ void main() {
   uvec3 place = first + inside;
   if (any(greaterThanEqual(place, size)) || halted()) return;
   cell = ((inside.x + 2u) * uint(SEEN_J) + inside.y + 2u) * uint(SEEN_K) + inside.z + 2u;
-  for (uint c = 0u; c < LATTICE_CLASSES; ++c) classes[c] = spring_classes[lattice.first_class + c];
+  use_lengths(step_index, stage_index);
+  for (uint c = 0u; c < LATTICE_CLASSES; ++c) classes[c] = spring_class(lattice.first_class + c);
   uint i = lattice.first_particle + (place.x * size.y + place.y) * size.z + place.z;
   own[0] = stage_state[AT(i)];
   force[0] = own[0].velocity.w * gravity.xyz;

@@ -11,6 +11,17 @@
 #define TILE_I 4
 #define TILE_J 8
 #define TILE_K 8
+// With ASPIC_ACTUATED the buffer of BINDING_INCIDENT_START has these words before the starts, then the constants of the spring
+// classes (k, c, whether cord), then rest lengths: for each stage of the next steps a row of all classes.
+#define LENGTHS_FIRST_STEP 0u  // step of the first row
+#define LENGTHS_STAGES 1u      // rows of a step
+#define LENGTHS_CLASSES 2u     // numbers of a row
+#define LENGTHS_CONSTANTS 3u   // where the constants begin
+#define LENGTHS_ROWS 4u        // where the rows begin
+#define LENGTHS_HEAD 8u
+// Rows of a step of implicit Euler.
+#define LENGTHS_AT_START 0u
+#define LENGTHS_AT_END 1u
 #define GEOMETRY_SIZE 3  // vectors, and numbers, of a shape: geometry_size in src/model/shapes/shape.h
 
 // Vectors of the OWN block, each an array over particles.

@@ -3,6 +3,8 @@
 #include "compute/common.glsl"
 #include "compute/control.glsl"
 #include "compute/link_force.glsl"
+#define BINDING_LENGTHS BINDING_SPRING_LENGTHS
+#include "compute/spring_classes.glsl"
 
 layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageState { Particle stage_state[]; };
 // x: end a; y: end b and the spring class, packed as a gather word
@@ -16,6 +18,7 @@ void main() {
   uvec2 ends = springs[AT_ITEM(s)];
   Particle a = stage_state[AT(ends.x)];
   Particle b = stage_state[AT(ends.y >> class_bits)];
-  SpringClass spring = spring_classes[ends.y & ((1u << class_bits) - 1u)];
+  use_lengths(step_index, stage_index);
+  SpringClass spring = spring_class(ends.y & ((1u << class_bits) - 1u));
   spring_forces[AT_ITEM(s)] = link_force(spring, a.position.xyz, a.velocity.xyz, b.position.xyz, b.velocity.xyz);
 }

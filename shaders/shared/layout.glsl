@@ -13,6 +13,7 @@
 #define BINDING_CONTROL 6       // Control
 #define BINDING_SPRING_FORCES 7 // vec4[springs]: force on end a [N], signed spring strength s [N]
 #define BINDING_SPRINGS 4       // uvec2[springs], in the per-spring force pass only
+#define BINDING_SPRING_LENGTHS 5  // there alone: rest lengths that change, which others have in INCIDENT_START
 // Of the implicit kernels, where they differ.
 #define BINDING_STATE_A 0       // Particle[]: the state, or where the step's end goes: Solve.parity tells
 #define BINDING_STATE_B 1       // Particle[]: the other one

@@ -28,7 +28,7 @@ double Measures::total() const {
   return kinetic + elastic + gravitational;
 }
 
-Measures measure(const Model& model, const State& state) {
+Measures measure(const Model& model, const State& state, const Inputs& inputs) {
   assert(check_sizes(model, state));
   Measures m;
   double fastest_squared = 0.0;
@@ -53,14 +53,51 @@ Measures measure(const Model& model, const State& state) {
   }
   m.max_speed = std::sqrt(fastest_squared);
   if (std::isfinite(lowest)) m.min_height = lowest;
+  const std::vector<double> r = rest_lengths(model, state.step, 0.0, inputs.channels);
   for (const Spring& spring : springs_of(model)) {
     const SpringClass& c = model.spring_classes[spring.spring_class];
-    const double stretch = length(state.position[spring.a] - state.position[spring.b]) - c.rest_length;
+    const double stretch =
+        length(state.position[spring.a] - state.position[spring.b]) - r[spring.spring_class];
     if (c.cord && stretch < 0.0) continue;
     m.elastic += 0.5 * c.stiffness * stretch * stretch;
   }
   if (bodies_touch(model)) m.elastic += push_energy(model, state);
   return m;
+}
+
+double actuator_work(const Model& model, const State& from, const State& to, const Inputs& inputs) {
+  assert(check_sizes(model, from) && check_sizes(model, to));
+  if (model.actuation.empty()) return 0.0;
+  const std::vector<double> before = rest_lengths(model, from.step, 0.0, inputs.channels),
+                            after = rest_lengths(model, from.step, 1.0, inputs.channels);
+  double work = 0.0;
+  for (const Spring& spring : springs_of(model)) {
+    const SpringClass& c = model.spring_classes[spring.spring_class];
+    const double r0 = before[spring.spring_class], r1 = after[spring.spring_class];
+    if (r0 == r1) continue;
+    const auto stretch = [&](const State& state, double r) {
+      const double s = length(state.position[spring.a] - state.position[spring.b]) - r;
+      return c.cord && s < 0.0 ? 0.0 : s;
+    };
+    work -= 0.5 * c.stiffness * (stretch(from, r0) + stretch(to, r1)) * (r1 - r0);
+  }
+  return work;
+}
+
+double largest_actuation_energy(const Model& model) {
+  if (model.actuation.empty()) return 0.0;
+  const std::vector<LengthRange> ranges = rest_length_ranges(model);
+  const std::vector<std::uint64_t> springs = springs_by_class(model);
+  double sum = 0.0;
+  for (std::size_t c = 0; c < ranges.size(); ++c) {
+    const SpringClass& of = model.spring_classes[c];
+    // A cord that is longer than at rest hangs slack.
+    const double shorter = of.rest_length - ranges[c].least,
+                 longer = of.cord ? 0.0 : ranges[c].most - of.rest_length;
+    const double most = std::max(shorter, longer);
+    sum += 0.5 * static_cast<double>(springs[c]) * of.stiffness * most * most;
+  }
+  return sum;
 }
 
 std::optional<std::string_view> first_not_finite(const Measures& m) {

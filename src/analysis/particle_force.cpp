@@ -58,14 +58,16 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
   ParticleForce force;
   force.gravity = model.mass[particle] * model.simulation.gravity;
   Vector net = exact(force.gravity), sum = Vector::Zero();
+  const std::vector<double> lengths = rest_lengths(model, state.step, 0.0, inputs.channels);
   const auto pulled = [&](const SpringClass& spring, const Vec3& other_x, const Vec3& other_v) -> Vector {
     return reference::spring_force<double>(reference::SpringConstants<double>(spring), x, v, exact(other_x),
                                            exact(other_v));
   };
   for (const Spring& spring : springs.of(model, particle)) {
     const std::uint32_t other = spring.a == particle ? spring.b : spring.a;
-    const Vector f =
-        pulled(model.spring_classes[spring.spring_class], state.position[other], state.velocity[other]);
+    SpringClass now = model.spring_classes[spring.spring_class];
+    now.rest_length = lengths[spring.spring_class];
+    const Vector f = pulled(now, state.position[other], state.velocity[other]);
     sum += f;
     net += f;
   }

@@ -75,6 +75,7 @@ LinearisedBody::LinearisedBody(const Model& model, std::uint32_t first_particle,
   const std::vector<Vec3> position = model.initial_position.list(first_particle, particle_count);
   std::vector<double> stiffness_disc(particle_count, 0.0), damping_disc(particle_count, 0.0);
   smallest_ratio_ = std::numeric_limits<double>::infinity();
+  const std::vector<LengthRange> ranges = rest_length_ranges(model);
   for (const Spring& spring : springs_of(model, first_particle, particle_count)) {
     const SpringClass& c = model.spring_classes[spring.spring_class];
     const std::uint32_t a = spring.a - first_particle, b = spring.b - first_particle;
@@ -89,6 +90,8 @@ LinearisedBody::LinearisedBody(const Model& model, std::uint32_t first_particle,
       stiffness_disc[own] += c.stiffness * share;
       damping_disc[own] += c.damping * share;
     }
+    if (c.rest_length > 0.0)
+      shortening_ = std::max(shortening_, 1.0 - ranges[spring.spring_class].least / c.rest_length);
     const double ratio = c.damping / c.stiffness;
     smallest_ratio_ = std::min(smallest_ratio_, ratio);
     largest_ratio_ = std::max(largest_ratio_, ratio);
@@ -107,6 +110,7 @@ void LinearisedBody::join(const LinearisedBody& other) {
       spring_count_ == 0 ? other.smallest_ratio_ : std::min(smallest_ratio_, other.smallest_ratio_);
   largest_ratio_ = std::max(largest_ratio_, other.largest_ratio_);
   spring_count_ += other.spring_count_;
+  shortening_ = std::max(shortening_, other.shortening_);
   if (!(other.stiffness_bound_ <= stiffness_bound_)) stiffness_bound_ = other.stiffness_bound_;
   if (!(other.damping_bound_ <= damping_bound_)) damping_bound_ = other.damping_bound_;
 }

@@ -52,6 +52,8 @@ class LinearisedBody {
 
   /// Takes another body's springs into the bounds and ratios. Neither keeps springs.
   void join(const LinearisedBody& other);
+  /// Largest share by which actuators shorten a spring, 1 − r/r₀ at its shortest; 0 without any.
+  double shortening() const { return shortening_; }
   bool springs_kept() const { return !springs_.empty(); }
 
   /// Degrees of freedom that can move.
@@ -102,6 +104,7 @@ class LinearisedBody {
   double stiffness_bound_ = 0.0, damping_bound_ = 0.0;
   std::vector<double> root_inverse_mass_;  // √w of each particle of the body
   double smallest_ratio_ = 0.0, largest_ratio_ = 0.0;
+  double shortening_ = 0.0;
 };
 
 }  // namespace aspic

@@ -192,6 +192,19 @@ StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   return bounded_limit(analysis, integrator);
 }
 
+/// The limit where actuators have made rest lengths r as short as they do and the body is still as it was at
+/// rest: a spring of length L then also resists motion across it, with the stiffness k(1 − r/L). That adds at
+/// most the share 1 − r/L of the springs' Gershgorin bound to κ_max, and no limit falls by more than κ_max
+/// grows.
+StabilityLimit at_shortest(BodyAnalysis& analysis, StabilityLimit limit) {
+  const double shortening = analysis.body().shortening();
+  if (!(shortening > 0.0) || !limit.step || !std::isfinite(*limit.step)) return limit;
+  const double kappa = analysis.kappa_max().value,
+               more = shortening * analysis.body().eigenvalue_bound(1.0, 0.0);
+  if (kappa > 0.0) *limit.step *= kappa / (kappa + more);
+  return {limit.step, false};
+}
+
 /// The model's bodies as runs of particles; one run of all particles if some are outside any body.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> runs_of(const Model& model) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
@@ -221,7 +234,7 @@ std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const
   const auto take = [&](LinearisedBody body) {
     BodyAnalysis analysis(std::move(body), means, work);
     for (std::size_t i = 0; i < integrators.size(); ++i) {
-      limits[i] = smaller(limits[i], body_limit(analysis, integrators[i]));
+      limits[i] = smaller(limits[i], at_shortest(analysis, body_limit(analysis, integrators[i])));
     }
   };
   for (const auto& [first, count] : runs_of(model)) {
@@ -241,6 +254,7 @@ constexpr int most_looks = 50;
 
 bool certainly_stable(const Model& model, Integrator integrator, double timestep) {
   if (row_of(integrator).traits.stable_at_any_step) return true;
+  if (!model.actuation.empty()) return false;
   std::uint32_t covered = 0;
   double known_kappa = 0.0, known_ratio = 0.0;  // of the body before: cubes are often alike
   std::optional<StabilityLimit> known;

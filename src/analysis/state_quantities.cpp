@@ -12,21 +12,26 @@ namespace aspic {
 namespace {
 
 /// Strain and tension of all springs, and what they mean for their ends.
-void add_springs(const Model& model, const State& state, StateQuantities& q) {
+void add_springs(const Model& model, const State& state, const Inputs& inputs, StateQuantities& q) {
   std::vector<std::uint32_t> ending(model.particle_count());
   q.mean_strain.resize(model.particle_count());
+  const std::vector<double> lengths = rest_lengths(model, state.step, 0.0, inputs.channels);
+  const bool actuated = !model.actuation.empty();
+  if (actuated) q.mean_actuation.resize(model.particle_count());
   for (const Spring& s : springs_of(model)) {
     const SpringClass& c = model.spring_classes[s.spring_class];
     const Vec3 e = state.position[s.a] - state.position[s.b];
-    const double L = length(e), r = c.rest_length;
+    const double L = length(e), r = lengths[s.spring_class];
     const bool acts = L > 0.0 && !(c.cord && L < r);
     const double tension =
         acts ? c.stiffness * (L - r) + c.damping * dot(state.velocity[s.a] - state.velocity[s.b], e) / L
              : 0.0;
     q.strain.push_back(r > 0.0 ? L / r - 1.0 : 0.0);
     q.tension.push_back(tension);
+    if (actuated) q.actuation.push_back(c.rest_length > 0.0 ? r / c.rest_length - 1.0 : 0.0);
     for (const std::uint32_t end : {s.a, s.b}) {
       q.mean_strain[end] += std::abs(q.strain.back());
+      if (actuated) q.mean_actuation[end] += q.actuation.back();
       ++ending[end];
     }
     if (tension == 0.0) continue;
@@ -34,8 +39,11 @@ void add_springs(const Model& model, const State& state, StateQuantities& q) {
     q.force[s.a] = q.force[s.a] - on_b;
     q.force[s.b] = q.force[s.b] + on_b;
   }
-  for (std::size_t i = 0; i < ending.size(); ++i)
-    if (ending[i] > 0) q.mean_strain[i] /= ending[i];
+  for (std::size_t i = 0; i < ending.size(); ++i) {
+    if (ending[i] == 0) continue;
+    q.mean_strain[i] /= ending[i];
+    if (actuated) q.mean_actuation[i] /= ending[i];
+  }
 }
 
 }  // namespace
@@ -48,7 +56,7 @@ StateQuantities quantities_of(const Model& model, const State& state, const Inpu
     q.speed.push_back(length(state.velocity[i]));
     q.force.push_back(model.mass[i] * model.simulation.gravity);
   }
-  add_springs(model, state, q);
+  add_springs(model, state, inputs, q);
   for (const Pull& pull : inputs.pulls) {
     if (pull.ball) continue;
     const Vec3 e = state.position[pull.particle] - pull.anchor;

@@ -85,7 +85,7 @@ Result<Outcome> HeadlessRun::outcome(std::uint64_t last_step) {
   outcome.interrupted = interrupted_;
   ASPIC_TRY(outcome.state, solver_.state());  // the time below is that of finished work
   outcome.wall_seconds = seconds_ + seconds_since(before);
-  if (const auto bad = first_not_finite(measure(solver_.model(), outcome.state))) {
+  if (const auto bad = first_not_finite(measure(solver_.model(), outcome.state, solver_.inputs()))) {
     return fail(ErrorCode::diverged, "{} of step {} is not a finite number; the outputs were not completed.",
                 *bad, outcome.state.step);
   }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "analysis/stability.h"
 #include "aspic/scene.h"
@@ -13,6 +15,7 @@
 #include "cli/json.h"
 #include "io/program.h"
 #include "model/counts.h"
+#include "model/springs.h"
 #include "model/voxels.h"
 #include "run/capacity.h"
 #include "scene/import_configuration.h"
@@ -107,6 +110,81 @@ Status import_as_body(const SceneImportOptions& options) {
   return print_data(imported_toml(imported, options.file));
 }
 
+/// Springs that an actuator acts on, alone or among others.
+std::vector<std::uint64_t> springs_by_actuator(const Model& model) {
+  const Actuation& all = model.actuation;
+  const std::vector<std::uint64_t> springs = springs_by_class(model);
+  std::vector<std::uint64_t> counts(all.actuators.size(), 0);
+  for (const ActuatedClass& each : all.classes) {
+    std::set<std::uint32_t> acting;
+    for (std::uint32_t s = each.first_share; s < each.first_share + each.share_count; ++s)
+      for (const std::uint32_t drive : all.stretches[all.shares[s].stretch].drives)
+        acting.insert(all.drives[drive].actuator);
+    for (const std::uint32_t actuator : acting) counts[actuator] += springs[each.spring_class];
+  }
+  return counts;
+}
+
+/// Its law with its numbers: "r = r0·(1 + 0.1·w), w = sin 2π(2·(t − 1) + φ), 5 phases".
+std::string formula(const Model& model, std::size_t index) {
+  const Actuator& a = model.actuation.actuators[index];
+  const std::string time = a.start == 0.0 ? "t" : fmt::format("(t - {:.6g})", a.start);
+  std::set<double> phases;
+  for (const Drive& drive : model.actuation.drives)
+    if (drive.actuator == index) phases.insert(drive.phase);
+  const bool one = phases.size() == 1;
+  std::string phase =
+      one ? *phases.begin() == 0.0
+                ? ""
+                : fmt::format(" {} {:.6g}", *phases.begin() < 0.0 ? '-' : '+', std::abs(*phases.begin()))
+          : " + phase";
+  std::string w;
+  if (a.signal == Signal::sine)
+    w = fmt::format("sin 2π({:.6g}·{}{})", a.frequency, time, phase);
+  else if (a.signal == Signal::input)
+    w = fmt::format("channel {}", a.channel);
+  else
+    w = fmt::format("{}({:.6g}·{}{})", name_of(a.signal), a.frequency, time, phase);
+  std::string text =
+      fmt::format("r = r0·(1 {} {:.6g}·w), w = {}", a.amplitude < 0.0 ? '-' : '+', std::abs(a.amplitude), w);
+  if (!one && a.signal != Signal::input) text += fmt::format(", {} phases", phases.size());
+  if (a.axis != BodyAxis::none) text += fmt::format(", along {}", "?xyz"[static_cast<std::size_t>(a.axis)]);
+  if (a.ramp > 0.0) text += fmt::format(", growing for {:.6g} s", a.ramp);
+  return text;
+}
+
+double shortest_share(const Model& model) {
+  double least = 1.0;
+  const std::vector<LengthRange> ranges = rest_length_ranges(model);
+  for (std::size_t c = 0; c < ranges.size(); ++c)
+    if (const double r = model.spring_classes[c].rest_length; r > 0.0)
+      least = std::min(least, ranges[c].least / r);
+  return least;
+}
+
+Json actuators_of(const Model& model) {
+  Json list = Json::array();
+  const std::vector<std::uint64_t> springs = springs_by_actuator(model);
+  for (std::size_t a = 0; a < springs.size(); ++a)
+    list.push_back({{"name", model.actuation.actuators[a].name},
+                    {"springs", springs[a]},
+                    {"formula", formula(model, a)}});
+  return list;
+}
+
+std::string actuators_text(const Model& model) {
+  std::string text;
+  const std::vector<std::uint64_t> springs = springs_by_actuator(model);
+  for (std::size_t a = 0; a < springs.size(); ++a)
+    text += fmt::format("actuator     {}: {} springs, {}\n",
+                        printable_line(model.actuation.actuators[a].name), springs[a], formula(model, a));
+  if (text.empty()) return text;
+  return text + fmt::format(
+                    "actuation    shortest rest length {:.4g} of that at rest; held there, its springs would "
+                    "have {:.4g} J\n",
+                    shortest_share(model), largest_actuation_energy(model));
+}
+
 }  // namespace
 
 Status execute(const SceneImportOptions& options) {
@@ -167,6 +245,7 @@ Status execute(const SceneCheckOptions& options) {
                                                      {"total", counts.springs()}}},
                                     {"balls", counts.balls},
                                     {"voxels", cells_of(scene.model)},
+                                    {"actuators", actuators_of(model)},
                                     {"model_bytes", model_bytes(model)},
                                     {"state_bytes", state_bytes(counts)},
                                     {"bytes", bytes},
@@ -181,6 +260,7 @@ Status execute(const SceneCheckOptions& options) {
                         counts.structural, counts.shear, counts.bending);
     text += fmt::format("balls        {}\n", counts.balls);
     for (const VoxelsSettings& voxels : scene.model.voxels) text += cells_text(scene.model, voxels);
+    text += actuators_text(model);
     const std::uint64_t shared = model_bytes(model) + state_bytes(counts);
     text += fmt::format("memory       {:<24} {:>10}\n", "model", human_bytes(model_bytes(model)));
     text += fmt::format("memory       {:<24} {:>10}\n", "state", human_bytes(state_bytes(counts)));

@@ -97,9 +97,15 @@ void Bands::set_constants(const Model& model) {
       const std::uint16_t c = mixtures_[m][lane];
       lanes_[m].stiffness[lane] = stiffness_[c];
       lanes_[m].damping[lane] = damping_[c];
-      lanes_[m].rest_length[lane] = rest_length_[c];
     }
   }
+  rest_lengths_set();
+}
+
+void Bands::rest_lengths_set() {
+  for (std::size_t m = 0; m < mixtures_.size(); ++m)
+    for (std::size_t lane = 0; lane < slice; ++lane)
+      lanes_[m].rest_length[lane] = rest_length_[mixtures_[m][lane]];
 }
 
 }  // namespace aspic::parallel

@@ -34,6 +34,9 @@ class Bands {
   static std::optional<Bands> of(const Model& model, const Body& body);
   /// Of another model with the same springs.
   void set_constants(const Model& model);
+  /// Of a spring class of the model; mixtures have it once rest_lengths_set() was called.
+  void set_rest_length(std::uint32_t spring_class, float r) { rest_length_[spring_class - first_class_] = r; }
+  void rest_lengths_set();
 
   std::size_t first() const { return first_; }
   std::size_t count() const { return count_; }

@@ -61,7 +61,9 @@ class CpuSolver final : public Solver {
     inverse_mass_ = FloatArray(count, slice);
     fill(mass_, model_->mass);
     fill(inverse_mass_, model_->inverse_mass);
-    steps_ = make_steps({model_, dynamics_, springs_, mass_, inverse_mass_, margin, arithmetic, *workers_});
+    lengths_.emplace(*model_, springs_);
+    steps_ = make_steps(
+        {model_, dynamics_, springs_, *lengths_, mass_, inverse_mass_, margin, arithmetic, *workers_});
     bytes_ = sizeof(*this) + heap_bytes();
     const State start = initial_state(*model_, Precision::single);
     (void)CpuSolver::take_state(view_of(start), start.step);
@@ -112,6 +114,7 @@ class CpuSolver final : public Solver {
   reference::Balls<float> balls_;
   std::shared_ptr<Workers> workers_;
   std::vector<Springs> springs_;  // by body
+  std::optional<MovingLengths> lengths_;
   std::unique_ptr<Steps> steps_;
   SolveStatistics statistics_;
   FloatArray mass_, inverse_mass_;
@@ -125,7 +128,7 @@ class CpuSolver final : public Solver {
 
 std::uint64_t CpuSolver::heap_bytes() const {
   std::uint64_t sum = bytes_of(state_) + bytes_of(next_) + bytes_of(mass_) + bytes_of(inverse_mass_) +
-                      bytes_of(springs_) + dynamics_.bytes() + balls_.bytes() +
+                      bytes_of(springs_) + lengths_->bytes() + dynamics_.bytes() + balls_.bytes() +
                       std::uint64_t{model_->ball_count()} * 18 * sizeof(float);
   for (const Springs& springs : springs_)
     sum += std::visit([](const auto& each) { return each.bytes(); }, springs);
@@ -230,6 +233,7 @@ Status CpuSolver::take_constants(SharedModel model) {
   balls_ = reference::Balls<float>(*model_);
   balls_.set_inputs(inputs());
   for (Springs& springs : springs_) std::visit([&](auto& each) { each.set_constants(*model_); }, springs);
+  lengths_->set_model(*model_);
   fill(mass_, model_->mass);
   fill(inverse_mass_, inverse_mass_under(*model_, inputs()));
   steps_->constants_changed();

@@ -56,6 +56,7 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
       method_(*row_of(parts.model->simulation.integrator).staged()),
       dynamics_(parts.dynamics),
       springs_(parts.springs),
+      lengths_(parts.lengths),
       mass_(parts.mass),
       inverse_mass_(parts.inverse_mass),
       arithmetic_(parts.arithmetic),
@@ -163,6 +164,7 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
                             accumulate,
                             s + 1 == stages,
                             method_.drift};
+    lengths_.set(dynamics_, s == 0 ? 0.0 : method_.stages[s - 1].advance);
     touching_ = may_touch && bodies_->find(view(*at), [&](std::size_t count, const auto& task) {
       workers_.run(count, task);
     });

@@ -61,6 +61,7 @@ class ExplicitSteps final : public Steps {
   const Staged& method_;
   const reference::Dynamics<float>& dynamics_;
   const std::vector<Springs>& springs_;
+  MovingLengths& lengths_;
   const FloatArray &mass_, &inverse_mass_;
   Arithmetic arithmetic_;
   Workers& workers_;

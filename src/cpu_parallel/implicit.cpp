@@ -53,6 +53,7 @@ ImplicitEuler::ImplicitEuler(const StepParts& parts)
     : model_(parts.model),
       dynamics_(parts.dynamics),
       springs_(parts.springs),
+      lengths_(parts.lengths),
       mass_(parts.mass),
       inverse_mass_(parts.inverse_mass),
       workers_(parts.workers),
@@ -146,6 +147,7 @@ void ImplicitEuler::forces(const Block& block, const Linearisation& at, BlockFor
 }
 
 reference::Trial<float> ImplicitEuler::start() {
+  lengths_.set(dynamics_, 0.0);
   for_each_block([&](Block& block, std::size_t) {
     begin_block(block);
     for (std::size_t c = 0; c < 3; ++c)
@@ -153,6 +155,7 @@ reference::Trial<float> ImplicitEuler::start() {
                   end_->v[c].data() + block.range.first);
   });
   touching_ = bodies_ && bodies_->start(dynamics_.step(), *start_, start_force());
+  lengths_.set(dynamics_, 1.0);
   return evaluate();
 }
 
@@ -171,7 +174,9 @@ reference::Trial<float> ImplicitEuler::touch_again(bool from_trial) {
   if (!from_trial)
     for (std::size_t c = 0; c < 3; ++c)
       std::copy_n(system_.base[c].data(), model_->particle_count(), end_->v[c].data());
+  lengths_.set(dynamics_, 0.0);
   touching_ = bodies_->search_again(*start_, end_->v, h_, start_force());
+  lengths_.set(dynamics_, 1.0);
   return evaluate();
 }
 

@@ -78,6 +78,7 @@ class ImplicitEuler final : public Steps {
   const SharedModel& model_;
   const reference::Dynamics<float>& dynamics_;
   const std::vector<Springs>& springs_;
+  MovingLengths& lengths_;
   const FloatArray &mass_, &inverse_mass_;
   Workers& workers_;
   reference::GroundAhead<float> ahead_;

@@ -73,6 +73,11 @@ class SpringLists {
   SpringLists(const Model& model, const Body& body);
   /// Of another model with the same springs.
   void set_constants(const Model& model);
+  /// Of a spring class of the model.
+  void set_rest_length(std::uint32_t spring_class, float r) {
+    rest_length_[spring_class] = r;
+    if (slack_[spring_class] >= 0.0f) slack_[spring_class] = r;
+  }
 
   std::size_t first() const { return first_; }
   std::size_t count() const { return count_; }

@@ -149,6 +149,8 @@ void Stack::retire(std::size_t lane) {
 
 void Stack::take_constants(std::size_t lane) {
   const Model& model = *lanes_[lane].model;
+  lanes_[lane].lengths.reset();
+  if (!model.actuation.empty()) lanes_[lane].lengths.emplace(model);
   float* to = constants_.data() + lane;
   for (const SpringClass& spring : model.spring_classes) {
     const Constants of(spring);
@@ -159,6 +161,24 @@ void Stack::take_constants(std::size_t lane) {
   }
   const Vector g = lanes_[lane].dynamics.gravity();
   for (std::size_t c = 0; c < 3; ++c) gravity_[c * stack_lanes + lane] = g[static_cast<Eigen::Index>(c)];
+}
+
+/// Rest lengths that follow signals, of the stage at that share of the step.
+void Stack::take_lengths(double share) {
+  for_running([&](Lane& lane, std::size_t index) {
+    if (!lane.lengths) return;
+    const Model& model = *lane.model;
+    std::size_t n = 0;
+    for (const double length : lane.lengths->at(lane.step, share, lane.dynamics.channels())) {
+      const std::uint32_t spring_class = model.actuation.classes[n++].spring_class;
+      const auto row = [&](ConstantRow which) -> float& {
+        return constants_[(spring_class * constant_rows + static_cast<std::size_t>(which)) * stack_lanes +
+                          index];
+      };
+      row(ConstantRow::rest_length) = static_cast<float>(length);
+      if (model.spring_classes[spring_class].cord) row(ConstantRow::slack) = static_cast<float>(length);
+    }
+  });
 }
 
 void Stack::take_masses(std::size_t lane, const Inputs& inputs) {
@@ -215,6 +235,7 @@ void Stack::advance() {
     // Stages take turns between two sets of arrays, so that the last one is in `next_`.
     Particles* const to = (stages - s) % 2 == 1 ? &next_ : &between_;
     const Forces forces = forces_of(force_);
+    take_lengths(s == 0 ? 0.0 : method.stages[s - 1].advance);
     stack_forces({springs_.get(), constants_.data(), mass_.data(), gravity_.data()}, *where, forces);
     add_pulls(*where);
     if (course) find_near(where->x);

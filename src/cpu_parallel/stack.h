@@ -55,6 +55,7 @@ class Stack {
     std::vector<float> kept;  ///< the last good state after a divergence: x and v, component by component
     std::vector<reference::RestingContact<float>> resting;  ///< of this step, in ascending particle index
     bool pins_held = false;                                 ///< no pinned particle moves
+    std::optional<RestLengths> lengths;                     ///< of actuated springs; none without them
     explicit Lane(SharedModel of) : model(std::move(of)), dynamics(*model) {}
   };
   template <class F>
@@ -62,6 +63,7 @@ class Stack {
   std::size_t at(std::size_t particle, std::size_t lane) const { return particle * stack_lanes + lane; }
 
   void take_constants(std::size_t lane);
+  void take_lengths(double share);
   void take_masses(std::size_t lane, const Inputs& inputs);
   void still(std::size_t lane);
   void hold_pins(Lane& lane, std::size_t index);

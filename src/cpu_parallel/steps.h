@@ -8,14 +8,13 @@
 
 #include "aspic/solver.h"
 #include "cpu_parallel/bands.h"
+#include "cpu_parallel/lengths.h"
 #include "cpu_parallel/springs.h"
 #include "cpu_parallel/workers.h"
 #include "cpu_reference/dynamics.h"
 #include "model/implicit.h"
 
 namespace aspic::parallel {
-
-using Springs = std::variant<Lattice, Bands, SpringLists>;
 
 /// Calls act(springs) of what every method takes: bands are for explicit ones.
 template <class Act>
@@ -29,6 +28,7 @@ struct StepParts {
   const SharedModel& model;  ///< may become another of the same topology: constants_changed()
   const reference::Dynamics<float>& dynamics;
   const std::vector<Springs>& springs;  ///< by body
+  MovingLengths& lengths;               ///< of these springs
   /// By particle, with room of `slice` behind the last.
   const FloatArray &mass, &inverse_mass;
   std::size_t margin;     ///< particles that the springs' loops may read on both sides of an array

@@ -57,8 +57,8 @@ class Dynamics {
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
   }
 
-  /// The step from the state of this number begins: moving ground takes its places at both ends of it, rest lengths
-  /// follow their signals from then on.
+  /// The step from the state of this number begins: moving ground takes its places at both ends of it, rest
+  /// lengths follow their signals from then on.
   void begin_step(std::uint64_t step) {
     step_ = step;
     for (Ground<T>& ground : grounds_) ground.begin_step(model_->simulation.timestep, step);
@@ -71,8 +71,8 @@ class Dynamics {
   void set_stop_flag(const std::atomic<bool>* flag) { flag_ = flag; }
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
-  /// f(x, v) [N], one column per particle, `share` of the step after its start; of a step with BodyContact that of
-  /// StepDynamics instead.
+  /// f(x, v) [N], one column per particle, `share` of the step after its start; of a step with BodyContact
+  /// that of StepDynamics instead.
   Field<T> force(const Field<T>& x, const Field<T>& v, double share = 0.0) const {
     Field<T> f = force_without_contact(x, v, share);
     add_contact_force(x, v, f);
@@ -115,8 +115,8 @@ class Dynamics {
   T mass(Eigen::Index i) const { return mass_[static_cast<std::size_t>(i)]; }
   T inverse_mass(Eigen::Index i) const { return inverse_mass_[static_cast<std::size_t>(i)]; }
   const SpringConstants<T>& spring_class(const Spring& spring) const { return classes_[spring.spring_class]; }
-  /// Constants of all spring classes this share of the step after its start: actuated ones have the rest length that
-  /// they have then.
+  /// Constants of all spring classes this share of the step after its start: actuated ones have the rest
+  /// length that they have then.
   std::vector<SpringConstants<T>> classes_at(double share) const {
     std::vector<SpringConstants<T>> classes = classes_;
     if (model_->actuation.empty()) return classes;

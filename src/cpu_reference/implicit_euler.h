@@ -110,13 +110,13 @@ class ImplicitEuler final : public Method<T> {
   T h_;
 
   // Of the step under way.
-  const Phase<T>* s_ = nullptr;    ///< where it began
+  const Phase<T>* s_ = nullptr;              ///< where it began
   std::vector<SpringConstants<T>> classes_;  ///< at its end
-  Field<T> held_;                  ///< contact force of the course model [N]
-  bool touching_ = false;          ///< whether bodies may touch in it
-  Field<T> start_force_;           ///< start_force() [N]
-  Field<T> base_, trial_, delta_;  ///< velocities [m/s]: trial = base + λ·δ
-  Field<T> r_, z_, p_, q_;         ///< of the linear system; r begins as m·(v − v') + h·f [kg·m/s]
+  Field<T> held_;                            ///< contact force of the course model [N]
+  bool touching_ = false;                    ///< whether bodies may touch in it
+  Field<T> start_force_;                     ///< start_force() [N]
+  Field<T> base_, trial_, delta_;            ///< velocities [m/s]: trial = base + λ·δ
+  Field<T> r_, z_, p_, q_;  ///< of the linear system; r begins as m·(v − v') + h·f [kg·m/s]
   // At the trial.
   std::vector<SpringJacobian<T>> jacobian_;       ///< of every spring
   std::vector<SpringJacobian<T>> pull_jacobian_;  ///< of every pull

@@ -1,6 +1,7 @@
 #pragma once
 // The explicit integrators (docs/physics.md, section 3), each as its textbook writes it. `h` is the time step
-// [s]. `dynamics.acceleration(x, v, c)` gives a(t + c·h, x, v) of all particles, or of all balls, in a step from t on.
+// [s]. `dynamics.acceleration(x, v, c)` gives a(t + c·h, x, v) of all particles, or of all balls, in a step
+// from t on.
 #include <algorithm>
 #include <cassert>
 #include <iterator>

@@ -2,6 +2,8 @@
 // What solvers leave on the device for pictures: the state, and the springs of the model.
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "gpu/buffer.h"
 #include "model/incident_springs.h"
@@ -67,6 +69,8 @@ struct DeviceState {
   /// The model's springs, for colours that show what they do; null, or with words that name springs: pictures
   /// make their own.
   const SpringBuffers* springs = nullptr;
+  /// Of the inputs that hold, for colours of springs whose rest lengths follow them.
+  std::span<const double> channels = {};
 };
 
 }  // namespace aspic

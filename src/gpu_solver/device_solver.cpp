@@ -58,6 +58,7 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
   if (!springs_) {
     ASPIC_TRY(springs_, make_spring_buffers(context_, *model_, path_.words, gl::BufferKind::sliced));
   }
+  ASPIC_CHECK(lengths_.build(context_, *model_, *springs_));
   largest_sliced_ = std::max({largest_sliced_, springs_->incident.bytes(), springs_->springs.bytes()});
   return {};
 }
@@ -68,8 +69,8 @@ std::string DeviceSolver::description() const {
 }
 
 DeviceState DeviceSolver::device_state() const {
-  return {&states_[current_], &balls_.buffer(), ball_slot_ * model_->ball_count(), base_step_ + steps_since_,
-          springs_.get()};
+  return {&states_[current_],        &balls_.buffer(), ball_slot_ * model_->ball_count(),
+          base_step_ + steps_since_, springs_.get(),   inputs().channels};
 }
 
 void DeviceSolver::take(const ConstStateView& state, std::uint64_t step) {
@@ -81,6 +82,7 @@ void DeviceSolver::take(const ConstStateView& state, std::uint64_t step) {
   ball_slot_ = 0;
   base_step_ = step;
   poses_.set_base_step(base_step_);
+  lengths_.set_base_step(base_step_);
   steps_since_ = 0;
   divergence_.reset();
   held_ = {};
@@ -110,11 +112,11 @@ Status DeviceSolver::take_state(const ConstStateView& view, std::uint64_t step) 
 Status DeviceSolver::take_inputs(const Inputs& taken) {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
-  if (taken.pulls != inputs().pulls) {
-    // Steps that found no room, or take more rounds than were queued, are repeated with the pulls they had.
-    if (repeats_steps()) ASPIC_CHECK(settle());
-    pulls_.set(*model_, taken.pulls);
-  }
+  const bool lengths = lengths_.any() && taken.channels != inputs().channels;
+  // Steps that found no room, or take more rounds than were queued, are repeated with the inputs they had.
+  if ((lengths || taken.pulls != inputs().pulls) && repeats_steps()) ASPIC_CHECK(settle());
+  if (taken.pulls != inputs().pulls) pulls_.set(*model_, taken.pulls);
+  if (lengths) lengths_.set_channels(taken.channels);
   pins_held_ = pins_held_ && taken.same_pins(inputs());
   return {};
 }
@@ -141,6 +143,7 @@ Status DeviceSolver::take_constants(SharedModel next) {
   model_ = std::move(next);
   simulation_.upload_items(std::span(&block, 1));
   poses_.set_model(*model_);
+  lengths_.set_model(*model_);
   balls_.set_model(*model_);
   touch_.set_model(*model_);
   if (state) take(view_of(std::as_const(*state)), state->step);
@@ -234,6 +237,7 @@ void DeviceSolver::keep_counting() {
   steps_since_ = 0;
   balls_.set_base_step(base_step_);
   poses_.set_base_step(base_step_);
+  lengths_.set_base_step(base_step_);
 }
 
 Divergence DeviceSolver::divergence_from(std::uint32_t word, std::uint64_t steps) const {

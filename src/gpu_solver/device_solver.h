@@ -11,6 +11,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
+#include "gpu_solver/lengths.h"
 #include "gpu_solver/step_inputs.h"
 #include "gpu_solver/touch_buffers.h"
 #include "gpu_solver/windows.h"
@@ -64,6 +65,10 @@ class DeviceSolver : public GpuSolver {
   /// Whether the path has cubes to itself here.
   bool takes_lattices() const { return !path_.lattice_kernel.empty() && has_lattices(*model_); }
   gl::Binding lattices() const { return {BINDING_LATTICES, &springs_->lattices, gl::BufferKind::uniform}; }
+  /// BINDING_INCIDENT_START of the solver's kernels.
+  gl::Binding starts() const {
+    return {BINDING_INCIDENT_START, lengths_.any() ? &lengths_.buffer() : &springs_->incident_start};
+  }
   gl::Binding constants() const { return {BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform}; }
   /// A program and the pass that runs it.
   Result<gl::Pass> pass(const KernelOptions& kernels, std::string_view path,
@@ -105,7 +110,8 @@ class DeviceSolver : public GpuSolver {
   std::uint32_t ball_slot_ = 0;  // the slot of its balls
   std::shared_ptr<const SpringBuffers> springs_;
   PullBuffer pulls_;
-  PoseBuffer poses_;  // of moving terrain
+  PoseBuffer poses_;      // of moving terrain
+  LengthBuffer lengths_;  // of actuated springs
   BallPasses balls_;
   TouchBuffers touch_;  // of bodies
   gl::Buffer simulation_;

@@ -115,16 +115,15 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   fast_ = options.spring_arithmetic == Arithmetic::fast;
   KernelOptions stage_kernels = kernels;
   if (fast_) stage_kernels.defines.push_back({"ASPIC_FAST", "1"});
+  if (lengths_.any()) stage_kernels.defines.push_back({"ASPIC_ACTUATED", "1"});
   const Binding control = {BINDING_CONTROL, &control_};
-  std::vector<Binding> bindings = {constants(),
-                                   control,
-                                   pulls_.binding(),
-                                   poses_.binding(),
-                                   {BINDING_INCIDENT_START, &springs_->incident_start},
-                                   lattices()};
+  std::vector<Binding> bindings = {constants(),      control,  pulls_.binding(),
+                                   poses_.binding(), starts(), lattices()};
   if (!path_.spring_kernel.empty()) {
     ASPIC_TRY(forces_, sliced("spring forces", spring_count(*model_) * sizeof(layout::vec4)));
-    ASPIC_TRY(spring_pass_, sliced_pass(stage_kernels, path_.spring_kernel, {constants(), control},
+    std::vector<Binding> of_springs = {constants(), control};
+    if (lengths_.any()) of_springs.push_back({BINDING_SPRING_LENGTHS, &lengths_.buffer()});
+    ASPIC_TRY(spring_pass_, sliced_pass(stage_kernels, path_.spring_kernel, std::move(of_springs),
                                         static_cast<std::uint32_t>(spring_count(*model_)),
                                         {.item = sizeof(layout::vec4), .particle = sizeof(layout::Particle)},
                                         seen_by_springs(*springs_)));
@@ -171,6 +170,7 @@ void ExplicitSolver::dispatch(const std::optional<SlicedPass>& pass, Kind kind,
 
 void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
   poses_.cover(step_index, 1);
+  lengths_.cover(step_index, 1);
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
   if (touch_.any()) touch_passes_.queue_start(states_[current_], step_index);
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
@@ -182,6 +182,7 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     const std::size_t out = (stages - 1 - s) % 2 == 0 ? end : between;
     for (const auto* pass : {&lattice_pass_, &particle_pass_})
       if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
+    if (spring_pass_ && lengths_.any()) spring_pass_->program().set(LOCATION_STAGE, s);
     constexpr std::uint64_t particle = sizeof(layout::Particle), force = sizeof(layout::vec4);
     const TouchPasses::States touching = {&states_[current_], &states_[stage_state], &states_[out], &sums_};
     if (touch_.any()) touch_passes_.queue_find(touching, step_index, time_of(step_index));
@@ -240,6 +241,7 @@ Status ExplicitSolver::carry_out(std::uint64_t steps, bool wait) {
 
 std::uint32_t ExplicitSolver::queue_steps(std::uint32_t count) {
   queues_.push_back({count, current_, ball_slot_, steps_since_, Clock::now()});
+  lengths_.cover(steps_since_, count);
   for (std::uint32_t n = 0; n < count; ++n) {
     if (profiler_ && n == 0) profiler_->begin();
     queue_step(steps_since_ + n, n + 1 == count);

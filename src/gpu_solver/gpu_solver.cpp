@@ -11,6 +11,7 @@
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
+#include "gpu_solver/lengths.h"
 
 namespace aspic {
 namespace {
@@ -63,7 +64,7 @@ std::uint64_t gpu_bytes(const Model& model, ForcePath path, std::uint64_t block_
   const ForcePathRow& row = method.takes(wanted) ? wanted : row_of(ForcePath::automatic, model);
   return ball_bytes(counts) + sizeof(layout::Simulation) + pull_table_bytes +
          method.bytes(counts, integrator, block_bytes) + spring_buffer_bytes(model, row.words) +
-         row.spring_bytes * counts.springs();
+         row.spring_bytes * counts.springs() + length_bytes(model);
 }
 
 }  // namespace aspic

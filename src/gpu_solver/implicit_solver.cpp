@@ -99,10 +99,8 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   ASPIC_CHECK(check_touching());
   ASPIC_TRY(solve_buffer_, Buffer::create(context_, "solve control", solve_bytes(particles)));
   looks_.emplace(context_, sizeof(layout::Solve));
-  const std::vector<Binding> bindings = {
-      constants(),      pulls_.binding(),
-      poses_.binding(), {BINDING_INCIDENT_START, &springs_->incident_start},
-      lattices(),       {BINDING_SOLVE, &solve_buffer_}};
+  const std::vector<Binding> bindings = {constants(), pulls_.binding(), poses_.binding(),
+                                         starts(),    lattices(),       {BINDING_SOLVE, &solve_buffer_}};
   constexpr std::uint64_t particle = sizeof(layout::Particle), own = OWN_VECTORS * sizeof(layout::vec4);
   arrays_ = {{BINDING_STATE_A, &states_[0], Over::particles, particle},
              {BINDING_STATE_B, &states_[1], Over::particles, particle},
@@ -112,6 +110,7 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
              {BINDING_OWN, &own_, Over::items, own}};
   KernelOptions own_kernels = kernels;
   if (touch_.any()) own_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
+  if (lengths_.any()) own_kernels.defines.push_back({"ASPIC_ACTUATED", "1"});
   ASPIC_CHECK(touch_passes_.build(context_, kernels,
                                   {constants(),
                                    {BINDING_SOLVE, &solve_buffer_},
@@ -256,7 +255,8 @@ std::uint32_t ImplicitSolver::queue_steps(std::uint32_t wanted) {
   }
   // Steps that are queued already may end behind this.
   const std::uint32_t before = target_ - solve_.step,
-                      steps = poses_.cover(solve_.step, before + wanted) - before;
+                      covered = lengths_.cover(solve_.step, poses_.cover(solve_.step, before + wanted)),
+                      steps = covered - std::min(covered, before);
   if (steps == 0) return 0;
   target_ += steps;
   if (queues_.empty()) {

@@ -124,7 +124,9 @@ Status check_overrun(std::uint32_t overrun) {
 }
 
 Result<layout::Simulation> simulation_block(const Model& model) {
-  if (model.spring_classes.size() > MAX_SPRING_CLASSES || model.terrain.size() > MAX_TERRAINS) {
+  // Kernels of a model with actuators find the classes elsewhere (lengths.h).
+  if ((model.actuation.empty() && model.spring_classes.size() > MAX_SPRING_CLASSES) ||
+      model.terrain.size() > MAX_TERRAINS) {
     return advised(fail(ErrorCode::scene_rejected,
                         "the scene has {} kinds of springs and {} terrains; the gpu backend holds {} and {}.",
                         model.spring_classes.size(), model.terrain.size(), MAX_SPRING_CLASSES, MAX_TERRAINS),
@@ -159,7 +161,7 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.max_without_progress_on_ground = max_without_progress_on_ground;
   block.least_turn = static_cast<float>(least_turn);
   block.least_wedge = static_cast<float>(least_wedge);
-  for (std::size_t c = 0; c < model.spring_classes.size(); ++c)
+  for (std::size_t c = 0; c < std::min<std::size_t>(model.spring_classes.size(), MAX_SPRING_CLASSES); ++c)
     block.spring_classes[c] = rounded(model.spring_classes[c]);
   std::uint32_t moving = 0;
   for (std::size_t t = 0; t < model.terrain.size(); ++t) {

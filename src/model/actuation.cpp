@@ -82,7 +82,8 @@ double sine_of_turns(double u) {
 double signal_at(const Actuator& actuator, double phase, double time, double channel) {
   const double since = time - actuator.start;
   if (since < 0.0) return 0.0;
-  const double w = actuator.signal == Signal::input ? channel : course_of(actuator, actuator.frequency * since + phase);
+  const double w =
+      actuator.signal == Signal::input ? channel : course_of(actuator, actuator.frequency * since + phase);
   if (!(since < actuator.ramp)) return w;
   const double part = since / actuator.ramp;
   return w * (part * part * (3.0 - 2.0 * part));
@@ -98,7 +99,9 @@ std::uint64_t Actuation::bytes() const {
 }
 
 bool same_structure(const Actuation& a, const Actuation& b) {
-  const auto same_actuator = [](const Drive& one, const Drive& other) { return one.actuator == other.actuator; };
+  const auto same_actuator = [](const Drive& one, const Drive& other) {
+    return one.actuator == other.actuator;
+  };
   const auto same_stretch = [](const StretchShare& one, const StretchShare& other) {
     return one.stretch == other.stretch;
   };
@@ -132,7 +135,8 @@ std::span<const double> RestLengths::at(std::uint64_t step, double share, std::s
       const Actuator& actuator = all.actuators[all.drives[d].actuator];
       const double more = actuator.amplitude * signals_[d];
       for (std::size_t axis = 0; axis < 3; ++axis)
-        if (actuator.axis == BodyAxis::none || static_cast<std::size_t>(actuator.axis) == axis + 1) cells.e[axis] += more;
+        if (actuator.axis == BodyAxis::none || static_cast<std::size_t>(actuator.axis) == axis + 1)
+          cells.e[axis] += more;
       cells.same = cells.same && actuator.axis == BodyAxis::none;
     }
     for (double& e : cells.e) e = std::max(e, least_stretch - 1.0);

@@ -1,7 +1,7 @@
 #pragma once
-// Rest lengths that follow signals (docs/actuation.md). What an actuated model holds: which spring classes have such
-// lengths, and what they are at a time. Every backend takes the numbers from rest_lengths(), in double precision,
-// rounded once; no kernel computes a signal.
+// Rest lengths that follow signals (docs/actuation.md). What an actuated model holds: which spring classes
+// have such lengths, and what they are at a time. Every backend takes the numbers from rest_lengths(), in
+// double precision, rounded once; no kernel computes a signal.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -45,8 +45,8 @@ struct StretchShare {
   double share = 0.0;  ///< 0 … 1
 };
 
-/// A spring class whose rest length changes: r = r₀·(1 + Σ share·e), with e = λ − 1 where the cells stretch by λ every
-/// way, and else e = √(1 + Σ nᵢ²·(λᵢ² − 1)) − 1 of a spring in the direction n.
+/// A spring class whose rest length changes: r = r₀·(1 + Σ share·e), with e = λ − 1 where the cells stretch
+/// by λ every way, and else e = √(1 + Σ nᵢ²·(λᵢ² − 1)) − 1 of a spring in the direction n.
 struct ActuatedClass {
   std::uint32_t spring_class = 0;
   std::array<double, 3> squares = {};  ///< nᵢ²; of no account where all cells stretch every way alike
@@ -78,13 +78,14 @@ double sine_of_turns(double u);
 /// w of an actuator's drive `time` [s] after the start of a run; `channel`: its number in the inputs.
 double signal_at(const Actuator& actuator, double phase, double time, double channel);
 
-/// Rest lengths of a model's actuated classes at one time after another. Holds its results, so that none needs memory.
+/// Rest lengths of a model's actuated classes at one time after another. Holds its results, so that none
+/// needs memory.
 class RestLengths {
  public:
   /// Of the model, which must outlive it.
   explicit RestLengths(const Model& model);
-  /// By Actuation::classes [m], at the time step·h + share·h. `channels`: Inputs::channels, which hold for that step;
-  /// those that are missing are 0.
+  /// By Actuation::classes [m], at the time step·h + share·h. `channels`: Inputs::channels, which hold for
+  /// that step; those that are missing are 0.
   std::span<const double> at(std::uint64_t step, double share, std::span<const double> channels);
   /// w by drive, as of the last at().
   std::span<const double> signals() const { return signals_; }
@@ -104,7 +105,8 @@ class RestLengths {
 std::vector<double> rest_lengths(const Model& model, std::uint64_t step, double share,
                                  std::span<const double> channels);
 
-/// By spring class, the least rest length that its signals let it have, and the most [m]; of inputs w is −1 … 1.
+/// By spring class, the least rest length that its signals let it have, and the most [m]; of inputs w is −1
+/// … 1.
 struct LengthRange {
   double least = 0.0, most = 0.0;
 };

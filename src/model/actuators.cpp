@@ -105,7 +105,8 @@ std::optional<CellNumbers> cell_numbers(std::string_view text) {
   for (int& count : cells.count)
     if (!take(count) || count < 1 || count > most_cells_along) return std::nullopt;
   if (at == end || *at++ != ':') return std::nullopt;
-  const std::uint64_t all = static_cast<std::uint64_t>(cells.count[0]) * static_cast<std::uint64_t>(cells.count[1]) *
+  const std::uint64_t all = static_cast<std::uint64_t>(cells.count[0]) *
+                            static_cast<std::uint64_t>(cells.count[1]) *
                             static_cast<std::uint64_t>(cells.count[2]);
   if (all > text.size()) return std::nullopt;
   for (std::uint64_t n = 0; n < all; ++n) {
@@ -118,7 +119,8 @@ std::optional<CellNumbers> cell_numbers(std::string_view text) {
 }
 
 std::string to_cell_text(const CellNumbers& cells) {
-  return fmt::format("{} {} {}: {}", cells.count[0], cells.count[1], cells.count[2], fmt::join(cells.numbers, " "));
+  return fmt::format("{} {} {}: {}", cells.count[0], cells.count[1], cells.count[2],
+                     fmt::join(cells.numbers, " "));
 }
 
 namespace {
@@ -128,7 +130,8 @@ std::vector<std::string> bodies_of(const ModelSettings& settings, const Actuator
   return actuator.bodies.empty() ? actuated_names(settings) : actuator.bodies;
 }
 
-bool acts_on(const ModelSettings& settings, const ActuatorSettings& actuator, const BodyRow& row, std::size_t index) {
+bool acts_on(const ModelSettings& settings, const ActuatorSettings& actuator, const BodyRow& row,
+             std::size_t index) {
   if (!makes_particles(row, settings)) return false;
   return actuator.bodies.empty() || std::ranges::any_of(actuator.bodies, [&](const std::string& name) {
            const auto found = find_body(settings, name);
@@ -152,7 +155,8 @@ struct ActuatedBody {
 
   std::size_t cell_index(const Lattice::Place& cell) const {
     const std::array<int, 3> n = lattice->cells();
-    return (static_cast<std::size_t>(cell[0]) * static_cast<std::size_t>(n[1]) + static_cast<std::size_t>(cell[1])) *
+    return (static_cast<std::size_t>(cell[0]) * static_cast<std::size_t>(n[1]) +
+            static_cast<std::size_t>(cell[1])) *
                static_cast<std::size_t>(n[2]) +
            static_cast<std::size_t>(cell[2]);
   }
@@ -161,7 +165,9 @@ struct ActuatedBody {
   double middle(const Lattice::Place& cell, std::size_t axis) const {
     return size * ((cell[axis] + offset[axis]) + 0.5 - grid[axis] / 2.0);
   }
-  Vec3 middle(const Lattice::Place& cell) const { return {middle(cell, 0), middle(cell, 1), middle(cell, 2)}; }
+  Vec3 middle(const Lattice::Place& cell) const {
+    return {middle(cell, 0), middle(cell, 1), middle(cell, 2)};
+  }
 };
 
 namespace {
@@ -221,7 +227,8 @@ bool holds(const BoxSettings& box, const Vec3& x) {
 
 /// All of an actuator's choice but a mask.
 bool chooses(const SelectSettings& select, const std::string& material, const Vec3& middle) {
-  if (!select.materials.empty() && std::ranges::find(select.materials, material) == select.materials.end()) return false;
+  if (!select.materials.empty() && std::ranges::find(select.materials, material) == select.materials.end())
+    return false;
   return !select.box || holds(*select.box, middle);
 }
 
@@ -231,7 +238,8 @@ bool in_mask(const CellLayers& mask, const std::array<int, 3>& at) {
 }
 
 bool chooses(const SelectSettings& select, const ActuatedBody& body, const Lattice::Place& cell) {
-  const std::array<int, 3> at = {cell[0] + body.offset[0], cell[1] + body.offset[1], cell[2] + body.offset[2]};
+  const std::array<int, 3> at = {cell[0] + body.offset[0], cell[1] + body.offset[1],
+                                 cell[2] + body.offset[2]};
   return body.lattice->full(cell) && in_mask(select.voxels, at) &&
          chooses(select, body.names[body.material_of(body.cell_index(cell))], body.middle(cell));
 }
@@ -270,13 +278,14 @@ std::optional<ActuatorFault> fault_of_signal(const ActuatorSettings& actuator) {
   if (actuator.signal == Signal::table) {
     const SignalTable& table = actuator.table;
     if (table.size() < 2)
-      return ActuatorFault{"table", "a signal \"table\" needs at least two points [t, w], such as "
-                                    "[[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]]"};
+      return ActuatorFault{"table",
+                           "a signal \"table\" needs at least two points [t, w], such as "
+                           "[[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]]"};
     if (table.front()[0] != 0.0) return ActuatorFault{"table", "the first point's time must be 0", 0};
     for (std::size_t n = 1; n < table.size(); ++n)
       if (table[n][0] < table[n - 1][0])
-        return ActuatorFault{"table",
-                             fmt::format("times must ascend, and {} follows {}", table[n][0], table[n - 1][0]), n};
+        return ActuatorFault{
+            "table", fmt::format("times must ascend, and {} follows {}", table[n][0], table[n - 1][0]), n};
     if (!(table.back()[0] > 0.0))
       return ActuatorFault{"table", "the last point's time, which is the table's length, must be above 0",
                            table.size() - 1};
@@ -285,22 +294,26 @@ std::optional<ActuatorFault> fault_of_signal(const ActuatorSettings& actuator) {
   }
   const double a = amplitude_of(actuator), least = 1.0 + std::min(a * low, a * high);
   if (actuator.signal != Signal::input && least < least_stretch)
-    return ActuatorFault{actuator.volume_change ? "volume-change" : "amplitude",
-                         fmt::format("rest lengths would fall to {:.4g} of what they are at rest; at least {} must be "
-                                     "left: choose a smaller one, or a signal that is never negative",
-                                     least, least_stretch)};
+    return ActuatorFault{
+        actuator.volume_change ? "volume-change" : "amplitude",
+        fmt::format("rest lengths would fall to {:.4g} of what they are at rest; at least {} must be "
+                    "left: choose a smaller one, or a signal that is never negative",
+                    least, least_stretch)};
   if (actuator.phase.along != BodyAxis::none && actuator.phase.wavelength == 0.0)
-    return ActuatorFault{"phase.wavelength", "a wave has a length: write one other than 0, a negative one for a wave "
-                                             "that runs the other way"};
+    return ActuatorFault{"phase.wavelength",
+                         "a wave has a length: write one other than 0, a negative one for a wave "
+                         "that runs the other way"};
   return std::nullopt;
 }
 
 /// Of a mask and phases by cell, which must be as large as the layers of every body.
 std::optional<ActuatorFault> fault_of_cells(const ActuatorSettings& actuator, const std::string& body,
                                             const ActuatedBody& seen) {
-  const auto phases = actuator.phase.cells.empty() ? std::optional(CellNumbers()) : cell_numbers(actuator.phase.cells);
+  const auto phases =
+      actuator.phase.cells.empty() ? std::optional(CellNumbers()) : cell_numbers(actuator.phase.cells);
   if (!phases) return ActuatorFault{"phase.cells", "it is no list of phases by cell, \"nx ny nz: …\""};
-  const auto mask = actuator.select.voxels.empty() ? std::optional(std::array<int, 3>()) : size_of(actuator.select.voxels);
+  const auto mask =
+      actuator.select.voxels.empty() ? std::optional(std::array<int, 3>()) : size_of(actuator.select.voxels);
   if (!mask) return ActuatorFault{"select.voxels", "its layers and rows must be of one size"};
   const std::pair<const char*, std::optional<std::array<int, 3>>> sizes[] = {
       {"phase.cells", actuator.phase.cells.empty() ? std::nullopt : std::optional(phases->count)},
@@ -309,8 +322,8 @@ std::optional<ActuatorFault> fault_of_cells(const ActuatorSettings& actuator, co
     if (!size) continue;
     if (!seen.lattice) return ActuatorFault{key, fmt::format("{} has no cells; leave it out", body)};
     if (*size != seen.grid)
-      return ActuatorFault{key, fmt::format("it has {} cells along x, y and z, and {} has {}", size_text(*size), body,
-                                            size_text(seen.grid))};
+      return ActuatorFault{key, fmt::format("it has {} cells along x, y and z, and {} has {}",
+                                            size_text(*size), body, size_text(seen.grid))};
   }
   return std::nullopt;
 }
@@ -321,8 +334,9 @@ std::optional<ActuatorFault> fault_of(const ModelSettings& settings, std::size_t
   const ActuatorSettings& actuator = settings.actuators[index];
   for (std::size_t m = 0; m < actuator.select.materials.size(); ++m)
     if (!find_material(settings, actuator.select.materials[m]))
-      return ActuatorFault{"select.material",
-                           fmt::format("it names {}", unknown_material(settings, actuator.select.materials[m])), m};
+      return ActuatorFault{
+          "select.material",
+          fmt::format("it names {}", unknown_material(settings, actuator.select.materials[m])), m};
   if (actuator.select.box)
     for (int axis = 0; axis < 3; ++axis)
       if (!(actuator.select.box->min[axis] <= actuator.select.box->max[axis]))
@@ -368,7 +382,7 @@ bool is_actuated(const ModelSettings& settings, const BodyRow& row, std::size_t 
 struct ActuationBuilder::Acting {
   std::uint32_t number;
   const ActuatorSettings* settings;
-  std::vector<double> phases;             // by cell of the layers; none: 0
+  std::vector<double> phases;              // by cell of the layers; none: 0
   std::vector<std::int64_t> phase_number;  // which of the different ones each is
 };
 
@@ -384,14 +398,16 @@ ActuationBuilder::ActuationBuilder(const ModelSettings& settings) : settings_(se
 std::uint32_t ActuationBuilder::drive_of(std::uint32_t actuator, std::int64_t place, double phase) {
   const auto& of = settings_.actuators[actuator].phase;
   const bool everywhere = of.along == BodyAxis::none && of.cells.empty();
-  const std::array<std::int64_t, 3> key = {actuator, everywhere ? -1 : std::int64_t{body_}, everywhere ? 0 : place};
+  const std::array<std::int64_t, 3> key = {actuator, everywhere ? -1 : std::int64_t{body_},
+                                           everywhere ? 0 : place};
   const auto [at, fresh] = known_drives_.try_emplace(key, static_cast<std::uint32_t>(made_.drives.size()));
   if (fresh) made_.drives.push_back({actuator, phase});
   return at->second;
 }
 
 std::uint32_t ActuationBuilder::stretch_of(const std::vector<std::uint32_t>& drives) {
-  const auto [at, fresh] = known_stretches_.try_emplace(drives, static_cast<std::uint32_t>(made_.stretches.size()));
+  const auto [at, fresh] =
+      known_stretches_.try_emplace(drives, static_cast<std::uint32_t>(made_.stretches.size()));
   if (fresh) made_.stretches.push_back({drives});
   return at->second;
 }
@@ -399,7 +415,8 @@ std::uint32_t ActuationBuilder::stretch_of(const std::vector<std::uint32_t>& dri
 std::uint32_t ActuationBuilder::class_of(Model& model, const std::vector<std::int64_t>& key,
                                          const std::vector<StretchShare>& shares,
                                          const std::array<double, 3>& squares) {
-  const auto [at, fresh] = known_classes_.try_emplace(key, static_cast<std::uint32_t>(model.spring_classes.size()));
+  const auto [at, fresh] =
+      known_classes_.try_emplace(key, static_cast<std::uint32_t>(model.spring_classes.size()));
   if (!fresh) return at->second;
   const SpringClass base = model.spring_classes[static_cast<std::size_t>(key.front())];
   model.spring_classes.push_back(base);
@@ -419,7 +436,8 @@ struct Alike {
 };
 
 /// Numbers that name a spring's class for its body: those of springs that are alike are equal.
-std::vector<std::int64_t> key_of(std::uint32_t base, const std::array<double, 3>& squares, std::vector<Alike>& cells) {
+std::vector<std::int64_t> key_of(std::uint32_t base, const std::array<double, 3>& squares,
+                                 std::vector<Alike>& cells) {
   std::ranges::sort(cells, {}, [](const Alike& c) { return std::pair(c.stretch, c.material); });
   std::int64_t common = 0;
   for (const Alike& c : cells) common = std::gcd(common, c.count);
@@ -441,9 +459,9 @@ void ActuationBuilder::add_lattice(Model& model, OfBody& of, const Body& body) {
   const std::array<int, 3> n = lattice.cells();
   // How cells stretch, by cell and type of spring.
   using ByType = std::array<std::int64_t, 3>;
-  std::vector<ByType> stretch(static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
-                                  static_cast<std::size_t>(n[2]),
-                              ByType{-1, -1, -1});
+  std::vector<ByType> stretch(
+      static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(n[2]),
+      ByType{-1, -1, -1});
   for_each_cell(lattice, [&](const Lattice::Place& cell) {
     std::array<std::vector<std::uint32_t>, 3> drives;
     for (const Acting& acting : of.acting) {
@@ -475,13 +493,15 @@ void ActuationBuilder::add_lattice(Model& model, OfBody& of, const Body& body) {
 
   std::vector<Lattice::Place> places;
   for (std::size_t point = 0; point < lattice.points(); ++point)
-    if (const Lattice::Place place = lattice.place(point); lattice.has_particle(place)) places.push_back(place);
+    if (const Lattice::Place place = lattice.place(point); lattice.has_particle(place))
+      places.push_back(place);
   // Springs in a direction one after the other are mostly alike: what the last one was.
   std::map<std::array<int, 3>, std::pair<std::vector<std::int64_t>, std::uint32_t>> last;
   std::vector<Alike> cells;
   const auto first = std::ranges::lower_bound(model.listed_springs, body.first_particle, {}, &Spring::a);
   for (auto spring = first; spring != model.listed_springs.end(); ++spring) {
-    const Lattice::Place &a = places[spring->a - body.first_particle], &b = places[spring->b - body.first_particle];
+    const Lattice::Place &a = places[spring->a - body.first_particle],
+                         &b = places[spring->b - body.first_particle];
     const LatticeDirection way = {b[0] - a[0], b[1] - a[1], b[2] - a[2], 0};
     const auto type = static_cast<std::size_t>(model.spring_classes[spring->spring_class].type);
     const SpringCells along = cells_along(lattice, a, way);
@@ -492,7 +512,8 @@ void ActuationBuilder::add_lattice(Model& model, OfBody& of, const Body& body) {
       const auto material = static_cast<std::int64_t>(seen.material_of(index));
       const std::int64_t how = stretch[index][type];
       acted = acted || how >= 0;
-      const auto same = std::ranges::find_if(cells, [&](const Alike& each) { return each.stretch == how && each.material == material; });
+      const auto same = std::ranges::find_if(
+          cells, [&](const Alike& each) { return each.stretch == how && each.material == material; });
       if (same == cells.end())
         cells.push_back({how, material, 1});
       else
@@ -506,11 +527,13 @@ void ActuationBuilder::add_lattice(Model& model, OfBody& of, const Body& body) {
     auto& [last_key, last_class] = last[{way.di, way.dj, way.dk}];
     if (key != last_key) {
       double all = 0.0;
-      for (const Alike& c : cells) all += static_cast<double>(c.count) * seen.moduli[static_cast<std::size_t>(c.material)];
+      for (const Alike& c : cells)
+        all += static_cast<double>(c.count) * seen.moduli[static_cast<std::size_t>(c.material)];
       std::vector<StretchShare> shares;
       for (const Alike& c : cells) {
         if (c.stretch < 0) continue;
-        const double share = static_cast<double>(c.count) * seen.moduli[static_cast<std::size_t>(c.material)] / all;
+        const double share =
+            static_cast<double>(c.count) * seen.moduli[static_cast<std::size_t>(c.material)] / all;
         if (!shares.empty() && shares.back().stretch == static_cast<std::uint32_t>(c.stretch))
           shares.back().share += share;
         else
@@ -526,7 +549,9 @@ void ActuationBuilder::add_lattice(Model& model, OfBody& of, const Body& body) {
 /// Springs of cloths and nets, each for itself.
 void ActuationBuilder::add_springs(Model& model, OfBody& of, const Body& body) {
   const Rotation back(of.seen.rotation.axis, -of.seen.rotation.angle);
-  const auto own = [&](std::uint32_t particle) { return back(model.initial_position[particle] - of.seen.centre); };
+  const auto own = [&](std::uint32_t particle) {
+    return back(model.initial_position[particle] - of.seen.centre);
+  };
   // Middles and directions that differ by rounding alone are the same.
   const auto snapped = [&](double x) { return std::round(x * 0x1p20) * 0x1p-20; };
   const auto first = std::ranges::lower_bound(model.listed_springs, body.first_particle, {}, &Spring::a);
@@ -538,11 +563,13 @@ void ActuationBuilder::add_springs(Model& model, OfBody& of, const Body& body) {
     std::vector<std::uint32_t> drives;
     for (const Acting& acting : of.acting) {
       const ActuatorSettings& actuator = *acting.settings;
-      if (!chooses(actuator.select, type) || !chooses(actuator.select, of.seen.names.front(), middle)) continue;
+      if (!chooses(actuator.select, type) || !chooses(actuator.select, of.seen.names.front(), middle))
+        continue;
       const PhaseSettings& phase = actuator.phase;
       const double x = phase.along == BodyAxis::none ? 0.0 : middle[static_cast<int>(phase.along) - 1];
-      drives.push_back(drive_of(acting.number, std::llround(x * 0x1p20),
-                                phase.along == BodyAxis::none ? phase.offset : phase.offset - x / phase.wavelength));
+      drives.push_back(
+          drive_of(acting.number, std::llround(x * 0x1p20),
+                   phase.along == BodyAxis::none ? phase.offset : phase.offset - x / phase.wavelength));
     }
     if (drives.empty()) continue;
     std::array<double, 3> squares = {};
@@ -564,7 +591,8 @@ void ActuationBuilder::add_body(Model& model, const BodyRow& row, std::size_t in
     if (auto phases = cell_numbers(actuator.phase.cells)) {
       std::map<double, std::int64_t> known;
       for (const double phase : phases->numbers)
-        acting.phase_number.push_back(known.try_emplace(phase, static_cast<std::int64_t>(known.size())).first->second);
+        acting.phase_number.push_back(
+            known.try_emplace(phase, static_cast<std::int64_t>(known.size())).first->second);
       acting.phases = std::move(phases->numbers);
     }
     of.acting.push_back(std::move(acting));
@@ -581,7 +609,8 @@ void ActuationBuilder::add_body(Model& model, const BodyRow& row, std::size_t in
     model.listed_springs.insert(model.listed_springs.end(), springs.begin(), springs.end());
     const std::array<int, 3> n = box->cells();
     body.lattice->full_cells.assign(
-        static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(n[2]), true);
+        static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(n[2]),
+        true);
     body.listed_surface = surface_of(*body.lattice, body.first_particle);
   }
   if (of.seen.lattice)
@@ -596,7 +625,8 @@ void ActuationBuilder::finish(Model& model) {
   for (std::size_t a = 0; a < settings_.actuators.size(); ++a) {
     const ActuatorSettings& s = settings_.actuators[a];
     made_.actuators.push_back({actuator_name(settings_, a), s.axis, amplitude_of(s), s.signal, s.frequency,
-                               s.signal == Signal::table ? s.table : SignalTable(), s.start, s.ramp, made_.channels});
+                               s.signal == Signal::table ? s.table : SignalTable(), s.start, s.ramp,
+                               made_.channels});
     if (s.signal == Signal::input) ++made_.channels;
   }
   model.actuation = std::move(made_);

@@ -61,8 +61,8 @@ class ActuationBuilder {
  public:
   explicit ActuationBuilder(const ModelSettings& settings);
 
-  /// Gives springs of the model's last body, which was made of that element of the list, the classes of its actuators;
-  /// lists them before.
+  /// Gives springs of the model's last body, which was made of that element of the list, the classes of its
+  /// actuators; lists them before.
   void add_body(Model& model, const BodyRow& row, std::size_t index);
   /// All bodies are there.
   void finish(Model& model);
@@ -72,8 +72,8 @@ class ActuationBuilder {
   struct OfBody;
   std::uint32_t drive_of(std::uint32_t actuator, std::int64_t place, double phase);
   std::uint32_t stretch_of(const std::vector<std::uint32_t>& drives);
-  std::uint32_t class_of(Model& model, const std::vector<std::int64_t>& key, const std::vector<StretchShare>& shares,
-                         const std::array<double, 3>& squares);
+  std::uint32_t class_of(Model& model, const std::vector<std::int64_t>& key,
+                         const std::vector<StretchShare>& shares, const std::array<double, 3>& squares);
   void add_lattice(Model& model, OfBody& of, const Body& body);
   void add_springs(Model& model, OfBody& of, const Body& body);
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -48,7 +48,8 @@ std::string unread_channel(const Model& model) {
   const std::vector<std::string> names = input_names(model);
   if (names.empty())
     return "no actuator of the scene has signal = \"input\", so none reads a channel; leave the channels out";
-  return fmt::format("the scene reads {}: that of {}", names.size() == 1 ? "one channel" : fmt::format("{} channels", names.size()),
+  return fmt::format("the scene reads {}: that of {}",
+                     names.size() == 1 ? "one channel" : fmt::format("{} channels", names.size()),
                      fmt::join(names, ", "));
 }
 

@@ -44,7 +44,8 @@ Status Engines::set_constants(SharedModel model) {
 }
 
 EnergySample Engines::measured(const State& state) const {
-  return {static_cast<double>(state.step) * model_->simulation.timestep, measure(*model_, state), state.step};
+  return {static_cast<double>(state.step) * model_->simulation.timestep,
+          measure(*model_, state, leader_.solver->inputs()), state.step};
 }
 
 Result<JobResult> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled) {

@@ -115,6 +115,18 @@ Status ModelBuffers::prepare_lines(gl::Context& context, const Model& model) {
   return {};
 }
 
+void ModelBuffers::follow_signals(const Model& model, const DeviceState& state) {
+  const std::vector<double> lengths = rest_lengths(model, state.step, 0.0, state.channels);
+  std::vector<layout::SpringClass> classes;
+  for (std::size_t c = 0; c < lengths.size(); ++c) {
+    SpringClass now = model.spring_classes[c];
+    now.rest_length = lengths[c];
+    classes.push_back(rounded(now));
+    if (c < springs_.size()) springs_[c].constants.rest_length = lengths[c];
+  }
+  spring_classes_.upload_items(classes);
+}
+
 Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, const DeviceState& state) {
   if (spring_classes_.id() == 0) {
     ASPIC_CHECK(gl::check_loop("quantity", "the springs of one particle", highest_degree(model)));
@@ -122,6 +134,7 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
     for (const SpringClass& c : model.spring_classes) classes.push_back(rounded(c));
     ASPIC_TRY(spring_classes_, gl::Buffer::of(context, "spring classes", classes));
   }
+  if (!model.actuation.empty()) follow_signals(model, state);
   if (has_neighbours(state))
     return gl::Buffer::check_size(context, "incident springs", state.springs->incident.bytes());
   if (own_springs_) return {};

@@ -41,6 +41,8 @@ class ModelBuffers {
   /// What colours by strain or force need: a particle's springs, those of `state` where it has them. Errors:
   /// as make_spring_buffers; no_device (more springs at one particle than a kernel may loop over).
   Status prepare_incident(gl::Context& context, const Model& model, const DeviceState& state);
+  /// Constants of springs have the rest lengths of the state's time; prepare_incident() calls it.
+  void follow_signals(const Model& model, const DeviceState& state);
 
   /// The vertices of the skin at these particles' positions, with what compute_quantity() found before.
   void compute_skin(const RenderPrograms& programs, const gl::Buffer& particles);

@@ -28,8 +28,8 @@ Result<NpyArray> read_array(const std::string& path) {
     return fail(ErrorCode::scene_rejected, "it must be an array with three axes, x, y and z; it has {}",
                 array.shape().size());
   if (std::ranges::max(array.shape()) > static_cast<std::size_t>(most_cells_along))
-    return fail(ErrorCode::scene_rejected, "it has {} × {} × {} cells; allowed: {} along each axis", array.shape()[0],
-                array.shape()[1], array.shape()[2], most_cells_along);
+    return fail(ErrorCode::scene_rejected, "it has {} × {} × {} cells; allowed: {} along each axis",
+                array.shape()[0], array.shape()[1], array.shape()[2], most_cells_along);
   return array;
 }
 
@@ -83,7 +83,8 @@ void read_actuator_files(Reader& reader, const std::vector<diagnostics::Source>&
       const std::string path = path_text(key, i);
       const auto written = reader.written().find(path);
       const auto name = reader.cell_sources().find(path);
-      if (written == reader.written().end() || written->second.problem || name == reader.cell_sources().end()) continue;
+      if (written == reader.written().end() || written->second.problem || name == reader.cell_sources().end())
+        continue;
       const bool in_file = written->second.key.source == 0;
       const std::filesystem::path folder =
           in_file ? std::filesystem::path(sources.front().label).parent_path() : std::filesystem::path();

@@ -45,15 +45,18 @@ Parameter file_row(std::string_view path, std::string_view meaning) {
 
 Rows select_rows() {
   Parameter springs =
-      unless_empty("springs of every type", "actuator[].select.springs", FIELD(model.actuators[i].select.springs),
-                   "Types of the springs that it acts on.");
+      unless_empty("springs of every type", "actuator[].select.springs",
+                   FIELD(model.actuators[i].select.springs), "Types of the springs that it acts on.");
   springs.type = ParameterType::words;
   springs.words = {"structural", "shear", "bending"};
 #define SELECT_BOX(field) FIELD_IN(model.actuators[i].select.box, field)
-  Rows box = {fixed(row("actuator[].select.box.min", "m", within(far), SELECT_BOX(min),
-                        "Lower corner of a box that has the middles of its cells, from the body's centre and before it "
-                        "is turned.")),
-              fixed(row("actuator[].select.box.max", "m", within(far), SELECT_BOX(max), "Upper corner of that box."))};
+  Rows box = {
+      fixed(
+          row("actuator[].select.box.min", "m", within(far), SELECT_BOX(min),
+              "Lower corner of a box that has the middles of its cells, from the body's centre and before it "
+              "is turned.")),
+      fixed(
+          row("actuator[].select.box.max", "m", within(far), SELECT_BOX(max), "Upper corner of that box."))};
   box[0].read = [](const Parameter&, const Scene& scene, std::size_t i) -> std::optional<Value> {
     const auto& chosen = scene.model.actuators[i].select.box;
     return chosen ? std::optional<Value>(chosen->min) : std::nullopt;
@@ -62,55 +65,69 @@ Rows select_rows() {
     const auto& chosen = scene.model.actuators[i].select.box;
     return chosen ? std::optional<Value>(chosen->max) : std::nullopt;
   };
+  // One corner alone leaves the other side open.
+  box[0].write = [](const Parameter&, Scene& scene, std::size_t i, const Value& value) {
+    auto& chosen = scene.model.actuators[i].select.box;
+    if (!chosen) chosen = BoxSettings{{}, {far, far, far}};
+    chosen->min = std::get<Vec3>(value);
+  };
+  box[1].write = [](const Parameter&, Scene& scene, std::size_t i, const Value& value) {
+    auto& chosen = scene.model.actuators[i].select.box;
+    if (!chosen) chosen = BoxSettings{{-far, -far, -far}, {}};
+    chosen->max = std::get<Vec3>(value);
+  };
   for (Parameter& p : box) p.when_absent = "wherever they are";
-  return joined({{unless_empty("cells of any", "actuator[].select.material",
-                               FIELD(model.actuators[i].select.materials),
-                               "Names of the [[material]]s of its cells: one, or an array.")},
-                 box,
-                 {unless_empty("all cells", "actuator[].select.voxels", FIELD(model.actuators[i].select.voxels),
-                               "Its cells as a mask, written like `layers` of [[voxels]] or the name of a .npy file of "
-                               "such an array: those that are not empty."),
-                  file_row("actuator[].select.file", "The mask as a .npy file; short: `voxels = \"mask.npy\"`."),
-                  springs}});
+  return joined(
+      {{unless_empty("cells of any", "actuator[].select.material", FIELD(model.actuators[i].select.materials),
+                     "Names of the [[material]]s of its cells: one, or an array.")},
+       box,
+       {unless_empty("all cells", "actuator[].select.voxels", FIELD(model.actuators[i].select.voxels),
+                     "Its cells as a mask, written like `layers` of [[voxels]] or the name of a .npy file of "
+                     "such an array: those that are not empty."),
+        file_row("actuator[].select.file", "The mask as a .npy file; short: `voxels = \"mask.npy\"`."),
+        springs}});
 }
 
 Rows phase_rows() {
   return {
       row("actuator[].phase.offset", "cycles", within(1e6), FIELD(model.actuators[i].phase.offset),
           "Phase φ of the signal; short: `phase = 0.25`."),
-      axis_word<phase_axes>("actuator[].phase.along", FIELD(model.actuators[i].phase.along),
-                             "Axis along which the phase changes as a wave's: by −x/wavelength, x from the body's centre "
-                             "and before it is turned."),
+      axis_word<phase_axes>(
+          "actuator[].phase.along", FIELD(model.actuators[i].phase.along),
+          "Axis along which the phase changes as a wave's: by −x/wavelength, x from the body's centre "
+          "and before it is turned."),
       belonging(Belonging::wave, row("actuator[].phase.wavelength", "m", within(far),
-                              FIELD(model.actuators[i].phase.wavelength),
-                              "Length of that wave; a negative one runs the other way.")),
+                                     FIELD(model.actuators[i].phase.wavelength),
+                                     "Length of that wave; a negative one runs the other way.")),
       unless_empty("the same in all cells", "actuator[].phase.cells", FIELD(model.actuators[i].phase.cells),
                    "A phase in cycles for each cell, in addition: \"nx ny nz: …\", ordered by x, y and z."),
-      file_row("actuator[].phase.file", "These as a .npy file, a number for each cell; short: `phase = \"phase.npy\"`."),
+      file_row("actuator[].phase.file",
+               "These as a .npy file, a number for each cell; short: `phase = \"phase.npy\"`."),
   };
 }
 
 /// Either takes the other's place.
 Rows amplitude_rows() {
-  Parameter amplitude = belonging(Belonging::amplitude,
-                           row("actuator[].amplitude", "", within(0.99), FIELD(model.actuators[i].amplitude),
-                               "Amplitude a: rest lengths are r₀·(1 + a·w)."));
+  Parameter amplitude = belonging(
+      Belonging::amplitude, row("actuator[].amplitude", "", within(0.99), FIELD(model.actuators[i].amplitude),
+                                "Amplitude a: rest lengths are r₀·(1 + a·w)."));
   amplitude.write = [](const Parameter& p, Scene& scene, std::size_t i, const Value& value) {
     from_value(p, scene.model.actuators[i].amplitude, value);
     scene.model.actuators[i].volume_change.reset();
   };
-  return {amplitude,
-          absent("amplitude is given",
-                 row("actuator[].volume-change", "", {-0.9, 6.8}, FIELD(model.actuators[i].volume_change),
-                     "Instead of the amplitude the change of volume v at w = 1: a = (1 + v)^(1/3) − 1, along one axis "
-                     "a = v."))};
+  return {amplitude, absent("amplitude is given", row("actuator[].volume-change", "", {-0.9, 6.8},
+                                                      FIELD(model.actuators[i].volume_change),
+                                                      "Instead of the amplitude the change of volume v at w "
+                                                      "= 1: a = (1 + v)^(1/3) − 1, along one axis "
+                                                      "a = v."))};
 }
 
 Parameter table_row() {
-  return belonging(Belonging::signal_table,
-                   row("actuator[].table", "", within(far), FIELD(model.actuators[i].table),
-                       "Points [t, w] of the signal `table`, t in periods from 0 on; w is linear between them, and begins "
-                       "again after the last."));
+  return belonging(
+      Belonging::signal_table,
+      row("actuator[].table", "", within(far), FIELD(model.actuators[i].table),
+          "Points [t, w] of the signal `table`, t in periods from 0 on; w is linear between them, and begins "
+          "again after the last."));
 }
 
 }  // namespace
@@ -122,12 +139,14 @@ std::vector<Parameter> actuator_parameters() {
         unless_empty("every body of particles", "actuator[].body", FIELD(model.actuators[i].bodies),
                      "Bodies that it acts on: names, or \"cube[0]\"; one, or an array.")},
        select_rows(),
-       {axis_word<actuator_axes>("actuator[].axis", FIELD(model.actuators[i].axis),
-                                  "Which way cells stretch: every way, or along an axis of the body before it is "
-                                  "turned.")},
+       {axis_word<actuator_axes>(
+           "actuator[].axis", FIELD(model.actuators[i].axis),
+           "Which way cells stretch: every way, or along an axis of the body before it is "
+           "turned.")},
        amplitude_rows(),
-       {word<actuator_signals>("actuator[].signal", FIELD(model.actuators[i].signal),
-                               "Course of w in time: between −1 and 1, or as a table or a channel of the inputs has it."),
+       {word<actuator_signals>(
+            "actuator[].signal", FIELD(model.actuators[i].signal),
+            "Course of w in time: between −1 and 1, or as a table or a channel of the inputs has it."),
         row("actuator[].frequency", "Hz", {0.0, 1e4}, FIELD(model.actuators[i].frequency),
             "Frequency f of the signal."),
         table_row()},

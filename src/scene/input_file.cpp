@@ -56,6 +56,7 @@ class InputReader {
   template <class Take>
   void list(const toml::table& table, std::string_view key, std::string_view wanted, const Take& take);
   void read_entry(const toml::table& table, InputLog& log);
+  void read_channels(const toml::table& table, Inputs& inputs);
   std::optional<Pull> read_pull(const toml::table& table);
   std::vector<std::uint32_t> read_particles(const toml::table& table, std::string_view key);
   void add_named(const toml::node& node, const std::string& name, std::vector<std::uint32_t>& particles);
@@ -213,6 +214,28 @@ std::vector<std::uint32_t> InputReader::read_particles(const toml::table& table,
   return particles;
 }
 
+/// `{ legs = 0.3 }`: by the actuators that read them; the others are 0.
+void InputReader::read_channels(const toml::table& table, Inputs& inputs) {
+  const std::vector<std::string> names = input_names(run_.model);
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  inputs.channels.assign(names.size(), 0.0);
+  for (const auto& [name, node] : table) {
+    const auto channel = static_cast<std::size_t>(std::ranges::find(known, name.str()) - known.begin());
+    const auto x = number_of(node);
+    if (channel == known.size())
+      fail(name.source(),
+           known.empty()
+               ? std::string("no actuator of the scene has signal = \"input\", so none reads a channel")
+               : fmt::format("no actuator '{}' reads a channel; those that do are {}{}", name.str(),
+                             diagnostics::list_text(known, false),
+                             diagnostics::did_you_mean(diagnostics::nearest(name.str(), known))));
+    else if (!x)
+      fail(node.source(), fmt::format("'channels.{}' must be a finite number", name.str()));
+    else
+      inputs.channels[channel] = *x;
+  }
+}
+
 void InputReader::read_entry(const toml::table& table, InputLog& log) {
   constexpr std::string_view keys[] = {"step", "pulls", "pinned", "released", "channels"};
   check_keys(table, "[[inputs]]", keys);
@@ -233,11 +256,15 @@ void InputReader::read_entry(const toml::table& table, InputLog& log) {
   });
   inputs.pinned = read_particles(table, "pinned");
   inputs.released = read_particles(table, "released");
-  list(table, "channels", "finite numbers", [&](const toml::node& element) {
-    const auto x = number_of(element);
-    if (x) inputs.channels.push_back(*x);
-    return x.has_value();
-  });
+  if (const auto* const by_name = table.get_as<toml::table>("channels")) {
+    read_channels(*by_name, inputs);
+  } else {
+    list(table, "channels", "finite numbers, or a table of them by actuator", [&](const toml::node& element) {
+      const auto x = number_of(element);
+      if (x) inputs.channels.push_back(*x);
+      return x.has_value();
+    });
+  }
   if (particles_ > most_particles)
     fail(table.source(), fmt::format("more than {} particles are pinned or released in all: pin fewer, or "
                                      "change pins less often",

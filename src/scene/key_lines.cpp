@@ -146,7 +146,8 @@ std::optional<Value> points_in(std::string_view text) {
   text = text.substr(1, text.size() - 2);
   while (!text.empty()) {
     const std::size_t end = text.find(']');
-    const auto point = end == std::string_view::npos ? std::nullopt : numbers_in<double>(text.substr(0, end + 1), 2);
+    const auto point =
+        end == std::string_view::npos ? std::nullopt : numbers_in<double>(text.substr(0, end + 1), 2);
     if (!point) return std::nullopt;
     points.push_back({(*point)[0], (*point)[1]});
     text.remove_prefix(end + 1);

@@ -227,9 +227,9 @@ std::string_view name_of(Projection projection) {
 }
 
 std::span<const Parameter> parameters() {
-  static const Rows table = joined({root_rows(), simulation_rows(), contact_rows(), terrain_rows(),
-                                    material_parameters(), body_parameters(), actuator_parameters(),
-                                    view_rows()});
+  static const Rows table =
+      joined({root_rows(), simulation_rows(), contact_rows(), terrain_rows(), material_parameters(),
+              body_parameters(), actuator_parameters(), view_rows()});
   return table;
 }
 

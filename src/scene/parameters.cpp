@@ -230,7 +230,8 @@ std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
   const std::vector<double> numbers = numbers_of(value);
   std::vector<std::string> words;
   if (p.type == ParameterType::word) words = {std::get<std::string>(value)};
-  if (const auto* list = std::get_if<std::vector<std::string>>(&value); list && p.type == ParameterType::words)
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value);
+      list && p.type == ParameterType::words)
     words = *list;
   if (const auto* pinned = std::get_if<PinnedSettings>(&value)) words = pinned->names;
   const bool several = !std::holds_alternative<std::string>(value) && numbers.size() != 1;

@@ -52,8 +52,8 @@ struct Range {
 /// When a key has a meaning. Geometry belongs to the shapes that have the key (terrain_shapes), the keys of a
 /// motion to terrain that has one; keys of explicit springs and of a material exclude each other by what the
 /// body is made of, a material's numbers and its name by whether it is one of [[material]], and those of
-/// equal edges and of a box by how many particles are along its edges. An actuator has an amplitude unless it has a
-/// volume change, a wavelength if its phase is that of a wave, a table if that is its signal.
+/// equal edges and of a box by how many particles are along its edges. An actuator has an amplitude unless it
+/// has a volume change, a wavelength if its phase is that of a wave, a table if that is its signal.
 enum class Belonging {
   always,
   geometry,

@@ -287,7 +287,8 @@ void Reader::read_parameter(const Parameter& p, const toml::node& node, std::siz
                          complaint->message};
     } else {
       p.set(scene_, index, value);
-      if (is_cell_source(p.path) || is_actuator_source(p.path)) cell_sources_[path_text(p.path, index)] = value;
+      if (is_cell_source(p.path) || is_actuator_source(p.path))
+        cell_sources_[path_text(p.path, index)] = value;
     }
   }
   // What was written wrong was written: a shape that has no such key complains about that too.

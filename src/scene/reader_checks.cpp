@@ -116,8 +116,9 @@ std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes)
     if (table != written_.end() && signal != written_.end() && table->second.key.source == 0 &&
         signal->second.key.source == 0 && !signal->second.problem &&
         scene_.model.actuators[a].signal != Signal::table)
-      problems.push_back({table->second.key, "'actuator.table' is the signal \"table\": write signal = \"table\", or "
-                                             "leave 'table' out"});
+      problems.push_back({table->second.key,
+                          "'actuator.table' is the signal \"table\": write signal = \"table\", or "
+                          "leave 'table' out"});
   }
   check_materials(problems);
   for (const SceneComplaint& complaint : check_scene(scene_, memory_bytes)) {

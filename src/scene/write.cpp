@@ -101,7 +101,8 @@ std::string inline_text(std::string_view name, std::string_view keys) {
   // A phase that is the same everywhere is a number.
   constexpr std::string_view offset = "offset = ", everywhere = ", along = \"none\"";
   if (name == "phase" && keys.starts_with(offset) && keys.ends_with(everywhere))
-    return fmt::format("{} = {}", name, keys.substr(offset.size(), keys.size() - offset.size() - everywhere.size()));
+    return fmt::format("{} = {}", name,
+                       keys.substr(offset.size(), keys.size() - offset.size() - everywhere.size()));
   return fmt::format("{} = {{ {} }}", name, keys);
 }
 
@@ -137,10 +138,10 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
       }
       continue;
     }
-    const std::string text = p.type == ParameterType::layers ? layers_text(std::get<CellLayers>(*value))
-                             : p.path == "voxels[].skin"     ? wrapped_text(std::get<std::string>(*value))
+    const std::string text = p.type == ParameterType::layers  ? layers_text(std::get<CellLayers>(*value))
+                             : p.path == "voxels[].skin"      ? wrapped_text(std::get<std::string>(*value))
                              : p.type == ParameterType::names ? names_text(*value)
-                                                             : toml_value(*value);
+                                                              : toml_value(*value);
     if (dot == std::string_view::npos) {
       std::string comment(p.unit);
       if (p.type == ParameterType::word) comment = fmt::format("{}", fmt::join(p.words, " | "));

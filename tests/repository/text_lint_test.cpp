@@ -164,7 +164,7 @@ TEST(PublicHeaders, AreFewAndIncludeTheStandardLibraryAndEachOther) {
   }
   // Room for what every front end says of an error and for the threads of every class; 115 are batch.h, 90
   // sweep.h.
-  EXPECT_LE(lines, 1900u) << "a user reads them all";
+  EXPECT_LE(lines, 2000u) << "a user reads them all";
   names.insert("version.h");  // generated
   const std::string all = contents(root / "include/aspic/aspic.h");
   names.erase("aspic.h");

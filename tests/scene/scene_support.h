@@ -70,6 +70,7 @@ inline KeyFile file_with(const Parameter& p, const std::string& value, const std
     add(list ? fmt::format("[[{}]]", section.substr(0, section.size() - 2)) : fmt::format("[{}]", section));
     if (p.belonging == Belonging::geometry) add(fmt::format("shape = \"{}\"", shape_with(p)));
     if (p.belonging == Belonging::material) add("material = {}");
+    if (p.belonging == Belonging::wave) add("phase.along = \"x\"");
     add_key();
   }
   return file;
@@ -126,6 +127,7 @@ inline bool same_bits(const Value& a, const Value& b) {
   if (const auto* x = std::get_if<std::string>(&a)) return *x == std::get<std::string>(b);
   if (const auto* x = std::get_if<CellLayers>(&a)) return *x == std::get<CellLayers>(b);
   if (const auto* x = std::get_if<CellPalette>(&a)) return *x == std::get<CellPalette>(b);
+  if (const auto* x = std::get_if<SignalTable>(&a)) return *x == std::get<SignalTable>(b);
   return std::get<std::vector<std::string>>(a) == std::get<std::vector<std::string>>(b);
 }
 

@@ -85,6 +85,10 @@ Value random_value(const Parameter& p, std::mt19937_64& random) {
       return CellPalette{};  // of no material
     case ParameterType::pinned:
       return PinnedSettings{{std::string(p.words.back()), test::corner_of(*p.pins)}, {0, 2, 3}};
+    case ParameterType::names:
+      return std::vector<std::string>{"cube[0]"};
+    case ParameterType::points:
+      return SignalTable{{0.0, number()}, {0.1, number()}, {1.0 / 3.0, 0.5}};
   }
   return false;
 }

@@ -1,0 +1,101 @@
+// Actuated bodies on the device: the reference's bits on every path, however steps are queued.
+#include <gtest/gtest.h>
+
+#include "cpu_reference/reference_solver.h"
+#include "gpu_solver/gpu_solver.h"
+#include "support/actuated.h"
+#include "support/gl_fixture.h"
+#include "support/integrator_names.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+class ActuatedOnTheDevice : public aspic::testing::GlTest {
+ protected:
+  std::unique_ptr<GpuSolver> solver(const Model& model, ForcePath path = ForcePath::automatic) {
+    GpuOptions options;
+    options.force_path = path;
+    auto made = make_gpu_solver(context(), model, options);
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
+    return std::move(made).value();
+  }
+  static std::unique_ptr<Solver> reference(const Model& model) {
+    return std::move(*make_reference_solver(model, Precision::single));
+  }
+};
+
+/// One method of one stage, of several, and one that is solved, on all paths; the others on one.
+TEST_F(ActuatedOnTheDevice, HasTheReferencesBits) {
+  for (const Integrator integrator : all_integrators) {
+    const bool every = integrator == Integrator::symplectic_euler ||
+                       integrator == Integrator::runge_kutta_4 || integrator == Integrator::implicit_euler;
+    const ContactModel contact =
+        integrator == Integrator::midpoint || integrator == Integrator::implicit_euler
+            ? ContactModel::course
+            : ContactModel::coulomb;
+    const Model model = test::build(test::actuated(integrator, contact));
+    const std::uint64_t steps = row_of(integrator).traits.long_steps ? 25 : 250;
+    const Inputs inputs = {.channels = {0.4}};
+    const auto expected = reference(model);
+    ASSERT_TRUE(expected->set_inputs(inputs).ok());
+    ASSERT_FALSE((*expected->advance(steps)).has_value());
+    for (const ForcePathRow& path : force_paths()) {
+      if (!works_with(path.path, integrator) || (!every && path.path != ForcePath::lattice)) continue;
+      const auto gpu = solver(model, path.path);
+      ASSERT_TRUE(gpu->set_inputs(inputs).ok());
+      ASSERT_FALSE((*gpu->advance(steps)).has_value());
+      EXPECT_EQ(*gpu->state(), *expected->state()) << name_of(integrator) << ", " << path.name;
+    }
+  }
+}
+
+// Channels and constants that change between queued steps; a state that is loaded.
+TEST_F(ActuatedOnTheDevice, FollowsInputsConstantsAndLoads) {
+  for (const Integrator integrator : {Integrator::midpoint, Integrator::implicit_euler}) {
+    ModelSettings settings = test::actuated(integrator, ContactModel::coulomb);
+    const Model model = test::build(settings);
+    settings.actuators[0].amplitude = 0.05;
+    settings.actuators[0].signal = Signal::square;
+    settings.actuators[3].frequency = 9.0;
+    const Model other = test::build(settings);
+    const auto gpu = solver(model);
+    const auto expected = reference(model);
+    const std::uint64_t steps = row_of(integrator).traits.long_steps ? 3 : 40;
+    for (Solver* const each : {static_cast<Solver*>(gpu.get()), expected.get()}) {
+      for (int n = 0; n < 5; ++n) {
+        ASSERT_TRUE(each->set_inputs({.channels = {0.2 * n}}).ok());
+        ASSERT_FALSE((*each->advance(steps)).has_value());
+      }
+      ASSERT_TRUE(each->set_constants(shared(other)).ok());
+      ASSERT_FALSE((*each->advance(steps)).has_value());
+      State state = *each->state();
+      state.step = 7;
+      ASSERT_TRUE(each->load(state).ok());
+      ASSERT_FALSE((*each->advance(steps)).has_value());
+    }
+    EXPECT_EQ(*gpu->state(), *expected->state()) << name_of(integrator);
+  }
+}
+
+// More classes than the uniform block holds: a phase for each cell.
+TEST_F(ActuatedOnTheDevice, HoldsAsManyClassesAsPhasesMake) {
+  ModelSettings settings = test::cube_on_plane(6, 2.1);
+  ActuatorSettings& actuator = settings.actuators.emplace_back();
+  actuator.amplitude = 0.2;
+  actuator.frequency = 4.0;
+  actuator.phase.cells = "5 5 5:";
+  for (int n = 0; n < 125; ++n) actuator.phase.cells += " " + std::to_string(0.0073 * n);
+  const Model model = test::build(settings);
+  ASSERT_GT(model.spring_classes.size(), 640u);
+  const auto expected = reference(model);
+  ASSERT_FALSE((*expected->advance(200)).has_value());
+  for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+    const auto gpu = solver(model, path);
+    ASSERT_FALSE((*gpu->advance(200)).has_value());
+    EXPECT_EQ(*gpu->state(), *expected->state());
+  }
+}
+
+}  // namespace
+}  // namespace aspic
