@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "aspic/state.h"
@@ -25,6 +26,18 @@ struct Extent {
     return true;
   }
 };
+
+/// A box around particles, of which there is one at least.
+Extent extent_of(std::span<const Vec3> places) {
+  Extent box = {places.front(), places.front()};
+  for (const Vec3& x : places) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], x[axis]);
+      box.high[axis] = std::max(box.high[axis], x[axis]);
+    }
+  }
+  return box;
+}
 
 /// Bodies as a run of these settings starts with them.
 struct Bodies {
@@ -126,34 +139,69 @@ void slow_down(Scene& scene, const SettingsList& list, std::size_t i) {
     factor->set(scene, i, Value(fastest));
 }
 
-/// The last element of a list goes where it is in nobody's way.
-void place(Scene& scene, const SettingsList& list) {
-  const std::size_t last = list.size(scene.model) - 1;
-  ModelSettings before = scene.model, alone = scene.model;
-  list.remove(before, last);
-  for (const BodyRow& row : body_rows()) {
-    const bool own = row.list.key == list.key;
-    while (row.list.size(alone) > (own ? 1u : 0u)) row.list.remove(alone, 0);
+/// Whether what a list makes falls on other bodies: it has a surface, and nothing throws it.
+bool falls(const Model& alone) {
+  return !alone.bodies.empty() && alone.bodies.front().style != SurfaceStyle::cords;
+}
+
+/// The highest of what is there over the ground that a box covers; nothing: all of it is free [m].
+std::optional<double> highest_under(const Bodies& there, const Extent& box) {
+  std::optional<double> highest;
+  const auto take = [&](const Extent& other) {
+    for (const int axis : {0, 2})
+      if (box.low[axis] > other.high[axis] || box.high[axis] < other.low[axis]) return;
+    highest = std::max(highest.value_or(other.high.y), other.high.y);
+  };
+  for (const Body& body : there.model.bodies)
+    take(extent_of(std::span(there.state.position).subspan(body.first_particle, body.particle_count)));
+  for (std::size_t b = 0; b < there.state.ball_position.size(); ++b) {
+    const double radius = there.model.balls[b].radius;
+    const Vec3 around = {radius, radius, radius}, &centre = there.state.ball_position[b];
+    take({centre - around, centre + around});
   }
-  const auto body = Bodies::of(alone), others = Bodies::of(before);
-  if (!body) return;
-  const Extent box = body->extent();
-  Vec3 shift;
-  if (others && box.meets(others->extent())) {
-    const Extent there = others->extent();
-    const Vec3 beside = raised(*body, {there.high.x + 0.5 * (box.high.x - box.low.x) - box.low.x, 0.0, 0.0});
-    const Vec3 above = raised(*body, {0.0, there.high.y + 0.5 * (box.high.y - box.low.y) - box.low.y, 0.0});
-    // In a bowl there is no place beside.
-    shift = body->depth(beside) <= body->depth(above) ? beside : above;
-  } else {
-    shift = raised(*body, {});
-  }
-  move(scene, list, last, shift);
-  if (others) aim(scene, list, last, others->extent());
-  if (last == 0) slow_down(scene, list, last);
+  return highest;
+}
+
+/// From where it falls: above what is under it, by a tenth of its size.
+Vec3 dropped(const Bodies& body, const Extent& box, const Bodies& there) {
+  const Vec3 size = box.high - box.low;
+  const auto highest = highest_under(there, box);
+  if (!highest) return raised(body, {});
+  const double lift = *highest + 0.1 * std::max({size.x, size.y, size.z}) - box.low.y;
+  return raised(body, {0.0, std::max(lift, 0.0), 0.0});
+}
+
+/// Next to the others, or above them where there is no place, as in a bowl.
+Vec3 set_aside(const Bodies& body, const Extent& box, const Extent& there) {
+  if (!box.meets(there)) return raised(body, {});
+  const Vec3 beside = raised(body, {there.high.x + 0.5 * (box.high.x - box.low.x) - box.low.x, 0.0, 0.0});
+  const Vec3 above = raised(body, {0.0, there.high.y + 0.5 * (box.high.y - box.low.y) - box.low.y, 0.0});
+  return body.depth(beside) <= body.depth(above) ? beside : above;
 }
 
 }  // namespace
+
+void place_body(Scene& scene, const SettingsList& list, std::size_t index) {
+  ModelSettings others = scene.model, own = scene.model;
+  list.remove(others, index);
+  for (const BodyRow& row : body_rows()) {
+    const bool same = row.list.key == list.key;
+    while (row.list.size(own) > (same ? index + 1 : 0)) row.list.remove(own, row.list.size(own) - 1);
+    while (same && row.list.size(own) > 1) row.list.remove(own, 0);
+  }
+  const auto body = Bodies::of(own), there = Bodies::of(others);
+  if (!body) return;
+  const Extent box = body->extent();
+  Vec3 shift;
+  if (!there)
+    shift = raised(*body, {});
+  else if (falls(body->model))
+    shift = dropped(*body, box, *there);
+  else
+    shift = set_aside(*body, box, there->extent());
+  move(scene, list, index, shift);
+  if (there) aim(scene, list, index, there->extent());
+}
 
 void add_body(Scene& scene, const SettingsList& list) {
   list.append(scene.model);
@@ -162,7 +210,8 @@ void add_body(Scene& scene, const SettingsList& list) {
     if (last == 0 || !p.path.starts_with(key_of(list, "")) || p.key() == "name") continue;
     if (const auto value = p.get(scene, last - 1)) p.set(scene, last, *value);
   }
-  place(scene, list);
+  place_body(scene, list, last);
+  if (last == 0) slow_down(scene, list, last);
 }
 
 }  // namespace aspic

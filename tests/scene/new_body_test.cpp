@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include "aspic/scene.h"
 #include "aspic/state.h"
@@ -49,6 +53,53 @@ TEST(NewBody, IsLikeTheLastOfItsKind) {
   ASSERT_EQ(scene.model.cubes.size(), 2u);
   EXPECT_EQ(scene.model.cubes[1].structural.stiffness, 1234.5);
   EXPECT_NE(scene.model.cubes[1].position, scene.model.cubes[0].position);
+}
+
+/// Least and greatest height of the particles of a body at the start.
+std::pair<double, double> heights(const Scene& scene, std::size_t body) {
+  const Model model = build_model(scene.model).value();
+  const State state = initial_state(model, Precision::double_);
+  const Body& of = model.bodies.at(body);
+  const auto y = [](const Vec3& x) { return x.y; };
+  const auto all = std::span(state.position).subspan(of.first_particle, of.particle_count);
+  return {std::ranges::min(all, {}, y).y, std::ranges::max(all, {}, y).y};
+}
+
+const SettingsList& list_of(std::string_view key) {
+  return std::ranges::find(body_rows(), key, [](const BodyRow& row) { return row.list.key; })->list;
+}
+
+// It falls on what is there: a tenth of its size above the highest under it, whatever the order of the list.
+TEST(NewBody, FallsOnTheHighestUnderIt) {
+  Scene scene = load_scene("cubes-stack").value();
+  add_body(scene, list_of("cube"));
+  const double turned = 12.0 * std::numbers::pi / 180.0, wide = 4.0 * (std::cos(turned) + std::sin(turned));
+  EXPECT_NEAR(heights(scene, 3).first - heights(scene, 2).second, 0.1 * wide, 1e-9);
+  const Vec3 position = scene.model.cubes[3].position, below = scene.model.cubes[2].position;
+  EXPECT_EQ(position.x, below.x);
+  EXPECT_EQ(position.z, below.z);
+  scene.model.cubes[0].position = scene.model.cubes[3].position;
+  place_body(scene, list_of("cube"), 0);
+  EXPECT_GT(heights(scene, 0).first, heights(scene, 3).second);
+}
+
+TEST(NewBody, StaysAboveTheGroundWhereNothingIsUnderIt) {
+  Scene scene = load_scene("cubes-stack").value();
+  scene.model.cubes.push_back(scene.model.cubes.front());
+  scene.model.cubes.back().position = {20.0, 3.0, 0.0};
+  place_body(scene, list_of("cube"), 3);
+  EXPECT_EQ(scene.model.cubes.back().position, (Vec3{20.0, 3.0, 0.0}));
+}
+
+// A cloth that lies level has no height of its own.
+TEST(NewBody, ClothIsDroppedFromAboveToo) {
+  Scene scene = load_scene("cube-plane").value();
+  ClothSettings cloth;
+  cloth.rotation = {{1.0, 0.0, 0.0}, 90.0};
+  cloth.position = scene.model.cubes[0].position;
+  scene.model.cloths.push_back(cloth);
+  place_body(scene, list_of("cloth"), 0);
+  EXPECT_NEAR(heights(scene, 1).first - heights(scene, 0).second, 0.3, 1e-9);
 }
 
 }  // namespace
