@@ -91,9 +91,9 @@ struct ContactSettings {
   bool spin = true;                            ///< whether friction makes balls rotate
   bool bodies = true;                          ///< whether bodies touch each other (docs/contact.md)
   bool self = false;                           ///< whether a body touches itself
-  double body_friction = 0.3;                  ///< μ between bodies, ≥ 0
-  double body_gap = 0.1;                       ///< ρ, where pushes begin, in spacings, > 0 … 1
-  double body_damping = 0.2;                   ///< ζ of pushes, 0…1
+  double body_friction = 0.3;  ///< μ, ≥ 0, default of every body; of two the smaller counts
+  double body_gap = 0.1;       ///< ρ, where pushes begin, in spacings, > 0 … 1
+  double body_damping = 0.2;   ///< ζ of pushes, 0…1
 };
 
 /// How a terrain moves to and fro: displaced by amplitude·sin 2π(frequency·t + phase) along a direction.
@@ -160,6 +160,7 @@ struct CubeSettings {
   double particle_mass = 1.0;                        ///< m [kg], > 0
   SpringSettings structural, shear, bending;         ///< by type; without `material`
   std::optional<MaterialSettings> material;  ///< instead of particle_mass and the three spring settings
+  std::optional<double> friction;            ///< μ against bodies, ≥ 0; absent: contact.body_friction
   PinnedSettings pinned;                     ///< none by default
 
   /// Particles along each axis.
@@ -190,10 +191,11 @@ struct VoxelsSettings {
   RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};  ///< about that centre
   Vec3 velocity = {0.0, 0.0, 0.0};                     ///< [m/s]
   CellLayers layers = {{"1.1", "1.1"}, {"111", "111"}};  ///< as many rows, and as many characters, in each
-  CellPalette palette = {};        ///< names of ModelSettings::materials; empty: all are of `material`
-  MaterialSettings material = {};  ///< of every cell where there is no palette
-  Pieces pieces = Pieces::refuse;  ///< of several
-  PinnedSettings pinned = {};      ///< none by default
+  CellPalette palette = {};             ///< names of ModelSettings::materials; empty: all are of `material`
+  MaterialSettings material = {};       ///< of every cell where there is no palette
+  Pieces pieces = Pieces::refuse;       ///< of several
+  std::optional<double> friction = {};  ///< μ against bodies, ≥ 0; absent: contact.body_friction
+  PinnedSettings pinned = {};           ///< none by default
   std::string skin = {};  ///< a mesh drawn in place of the cells' faces, as scenes keep it; empty: none
   friend BodyRow row_of(const VoxelsSettings&);
 };
@@ -230,6 +232,7 @@ struct ClothSettings {
   SpringSettings structural = {400.0, 0.8}, shear = {200.0, 0.4}, bending = {20.0, 0.04};  ///< by type
   std::optional<MaterialSettings> material;  ///< instead of particle_mass and the three spring settings
   double thickness = 0.001;                  ///< t [m], > 0; with `material`
+  std::optional<double> friction;            ///< μ against bodies, ≥ 0; absent: contact.body_friction
   PinnedSettings pinned;                     ///< none by default
 
   /// Particles along each axis: one layer.

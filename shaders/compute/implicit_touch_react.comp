@@ -5,8 +5,6 @@
 #include "compute/implicit_control.glsl"
 #include "compute/touch.glsl"
 
-layout(location = LOCATION_TOUCH_NUMBER) uniform float friction;  // μ
-
 layout(std430, binding = BINDING_TRIAL) restrict readonly buffer Trial { vec4 trial[]; };
 
 vec3 velocity(uint i) { return trial[i].xyz; }
@@ -24,7 +22,7 @@ bool react(TouchEncounter of, uint record) {
   precise vec3 slip = relative - u * n;
   precise vec3 p = contact.rub.xyz - of.touch_damping * slip;
   precise float size = norm3(p);
-  precise float cone = friction * contact.normal.w;
+  precise float cone = of.touch_friction * contact.normal.w;
   precise float across = stiffness;
   precise vec3 turn = vec3(0.0);
   if (!(cone > 0.0)) {

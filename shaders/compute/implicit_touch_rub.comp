@@ -4,8 +4,6 @@
 #include "compute/implicit_control.glsl"
 #include "compute/touch.glsl"
 
-layout(location = LOCATION_TOUCH_NUMBER) uniform float friction;  // μ
-
 layout(std430, binding = BINDING_SEARCH) restrict readonly buffer Search { vec4 search[]; };
 
 vec3 part(uint i) { return vec3(search[i].w); }

@@ -84,7 +84,7 @@
 #define LOCATION_WINDOW 5       // what a dispatch over a part of the items sees: compute/dispatch.glsl
 #define LOCATION_FIRST_SPRING 6
 #define LOCATION_TOUCH_COUNT 7  // encounters, or particles, of a dispatch
-#define LOCATION_TOUCH_NUMBER 8  // seconds since the initial state, the square of a way [m²] or friction μ
+#define LOCATION_TOUCH_NUMBER 8  // seconds since the initial state, or the square of a way [m²]
 
 // Of the items of a pass, each COUNTED_ITEMS-th and the last count themselves, so that a device which drops some is found out.
 #define COUNTED_ITEMS 4096u
@@ -213,6 +213,7 @@ struct TouchEncounter {
   float margin;           // by which boxes of candidates are widened [m]
   float tie;              // distances that differ by less are equal [m]
   float sight;            // up to where contacts are found [m]: ρ, or more in implicit Euler
+  float touch_friction;   // μ
 };
 
 // A contact.

@@ -1,5 +1,5 @@
-// The friction of a contact: the impulse that ends the slip of v₁, or as much of it as the cone allows. An includer has
-// `friction` μ and, of particles, part(i), w·S in every component, and end_velocity(i), v₁.
+// The friction of a contact: the impulse that ends the slip of v₁, or as much of it as the cone allows. An includer has,
+// of particles, part(i), w·S in every component, and end_velocity(i), v₁.
 vec3 friction_of(TouchEncounter of, TouchRecord contact) {
   uvec4 t = contact.corner;
   precise float push = contact.normal.w;
@@ -14,7 +14,7 @@ vec3 friction_of(TouchEncounter of, TouchRecord contact) {
   precise vec3 n = contact.normal.xyz;
   precise vec3 slip = relative - dot3(n, relative) * n;
   precise vec3 J = exact_div(1.0, W) * slip;
-  precise float size = norm3(J), cone = friction * (time_step * push);
+  precise float size = norm3(J), cone = of.touch_friction * (time_step * push);
   if (size > cone) J = exact_div(cone, size) * J;
   precise vec3 rub = exact_div(1.0, time_step) * -J;
   return rub;

@@ -4,8 +4,6 @@
 #include "compute/control.glsl"
 #include "compute/touch.glsl"
 
-layout(location = LOCATION_TOUCH_NUMBER) uniform float friction;  // μ
-
 layout(std430, binding = BINDING_START_STATE) restrict readonly buffer StartState { Particle start_state[]; };
 layout(std430, binding = BINDING_TOUCH_VALUES) restrict readonly buffer Values { vec4 values[]; };
 

@@ -69,12 +69,11 @@ bool add_button(Gui& gui, std::string_view key, std::string_view help) {
 }
 
 void add_body_button(Gui& gui, SceneControl& scene, const SettingsList& list) {
-  if (add_button(
-          gui, list.key,
-          fmt::format(
-              "Adds a {}, a copy of the last one if there is one, next to the existing bodies. Restarts the "
-              "simulation.",
-              noun_of(list.key))))
+  if (add_button(gui, list.key,
+                 fmt::format("Adds a {}, a copy of the last one if there is one: it falls on the bodies "
+                             "under it, or is placed "
+                             "next to them. Restarts the simulation.",
+                             noun_of(list.key))))
     add_body(scene, list);
 }
 
@@ -205,11 +204,13 @@ void bodies_section(Gui& gui, SceneControl& scene) {
          {scene.scene().model.cubes[i].particles ? "Longest edge" : "Edge"});
     edit(gui, scene, "cube[].velocity", i);
     edit(gui, scene, "cube[].particle-mass", i);
+    edit(gui, scene, "cube[].friction", i);
     edit(gui, scene, "cube[].pinned", i);
   }
   add_body_button(gui, scene, cubes);
   for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, row.list);
-  if (body_count(scene.scene().model) > 1) ImGui::TextDisabled("Bodies do not touch one another.");
+  if (body_count(scene.scene().model) > 1 && !scene.scene().model.contact.bodies)
+    ImGui::TextDisabled("Bodies pass through each other: see Contact.");
 }
 
 void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {

@@ -16,9 +16,9 @@ constexpr std::uint32_t nowhere = 0xffffffffu;
 template <class T>
 TouchConstants<T> rounded_pair(const TouchPair& exact, double ahead_step) {
   const TouchPair pair = ahead_step > 0.0 ? seen_ahead(exact, ahead_step) : exact;
-  return {static_cast<T>(pair.stiffness), static_cast<T>(pair.damping),       static_cast<T>(pair.spacing),
-          static_cast<T>(pair.reach),     static_cast<T>(pair.sight),         static_cast<T>(pair.depth),
-          static_cast<T>(pair.margin),    static_cast<T>(2e-6 * pair.spacing)};
+  return {static_cast<T>(pair.stiffness), static_cast<T>(pair.damping), static_cast<T>(pair.friction),
+          static_cast<T>(pair.spacing),   static_cast<T>(pair.reach),   static_cast<T>(pair.sight),
+          static_cast<T>(pair.depth),     static_cast<T>(pair.margin),  static_cast<T>(2e-6 * pair.spacing)};
 }
 
 /// P, or V: of the carriers' places or velocities.
@@ -66,7 +66,7 @@ BodyContact<T>::BodyContact(const Model& model, double ahead_step)
       table_(model.contact, surfaces_.bodies, ahead_step),
       near_(model, surfaces_),
       h_(static_cast<T>(model.simulation.timestep)),
-      friction_(static_cast<T>(model.contact.body_friction)),
+      rubs_(table_.rubs()),
       timestep_(model.simulation.timestep),
       faces_(surfaces_),
       places_(surfaces_.points.size()),
@@ -321,6 +321,7 @@ void BodyContact<T>::add(const Looker& p, const Sight<T>& seen, const TouchGap<T
   made.reach = reach_of(p.near, p.pair);
   made.k = p.pair.k;
   made.c = p.pair.c;
+  made.mu = p.pair.mu;
   const auto v = [&](std::uint32_t i) { return p.at.velocity(i); };
   const T u = dot3<T>(made.n, over_carriers<T>(made, v) - over_corners<T>(made, v));
   made.rest = made.k * (made.reach - made.d);
@@ -366,8 +367,7 @@ void BodyContact<T>::find_friction() {
   for (Touch<T>& touch : touches_) {
     if (!(touch.push > T(0))) continue;
     const T W = (over_carriers<T>(touch, part) + over_corners<T>(touch, part)) / touch.push;
-    touch.rub =
-        friction_of<T>(touch, W, over_carriers<T>(touch, v1), over_corners<T>(touch, v1), friction_, h_);
+    touch.rub = friction_of<T>(touch, W, over_carriers<T>(touch, v1), over_corners<T>(touch, v1), h_);
   }
 }
 

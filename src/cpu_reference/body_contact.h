@@ -27,6 +27,10 @@ class TouchTable {
     const std::uint32_t a = kind_[point_of], b = kind_[face_of];
     return point_of == face_of ? self_[a] : pairs_[a * self_.size() + b];
   }
+  /// Whether any pair has friction.
+  bool rubs() const {
+    return std::ranges::any_of(pairs_, [](const TouchConstants<T>& pair) { return pair.mu > T(0); });
+  }
 
  private:
   std::vector<std::uint32_t> kind_;              // by body
@@ -94,14 +98,14 @@ class BodyContact {
   template <class InverseMass>
   void act(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f) {
     push(start, inverse_mass, f);
-    if (friction_ > T(0)) spread<T>(touches_, f, [](const Touch<T>& touch) { return touch.rub; });
+    if (rubs_) spread<T>(touches_, f, [](const Touch<T>& touch) { return touch.rub; });
   }
 
   /// The same with pushes alone; friction is found, but not added.
   template <class InverseMass>
   void push(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f) {
     spread<T>(touches_, f, [](const Touch<T>& touch) { return Vector<T>(touch.push * touch.n); });
-    if (!(friction_ > T(0))) return;
+    if (!rubs_) return;
     inverse_mass_.clear();
     v1_.clear();
     for (std::size_t n = 0; n < particles_.size(); ++n) {
@@ -112,8 +116,6 @@ class BodyContact {
   }
   /// Bodies whose boxes are farther apart than this do not touch [m].
   double most_margin() const { return near_.most_margin(); }
-  /// μ
-  T friction() const { return friction_; }
 
   /// Ascending by point and body.
   const std::vector<Eased>& eased() const { return eased_; }
@@ -162,7 +164,8 @@ class BodyContact {
   TouchSurfaces surfaces_;
   TouchTable<T> table_;
   NearTriangles near_;
-  T h_, friction_;
+  T h_;
+  bool rubs_;  // any pair has friction
   double timestep_;
   bool at_end_ = false;
   std::vector<Eased> eased_;  // ascending by point and body

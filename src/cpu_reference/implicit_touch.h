@@ -158,7 +158,7 @@ class TouchAhead {
     for (const std::uint32_t p : contact_.particles()) f.push_back(force(p));
     contact_.push(start, inverse_mass, f);
     for (std::size_t n = 0; n < answers_.size(); ++n)
-      answers_[n].cone = contact_.friction() * contact_.touches()[n].push;
+      answers_[n].cone = contact_.touches()[n].mu * contact_.touches()[n].push;
     return true;
   }
 

@@ -17,6 +17,7 @@ template <class T>
 struct TouchConstants {
   T k;       ///< stiffness [N/m]
   T c;       ///< damping [N·s/m]
+  T mu;      ///< μ
   T s;       ///< spacing [m]
   T reach;   ///< ρ [m]
   T sight;   ///< distance up to which contacts are found [m]: ρ, or more where they are known ahead
@@ -37,7 +38,7 @@ struct Touch {
   Vector<T> n = Vector<T>::Zero();             ///< unit normal towards the point
   T d = T(0);                                  ///< distance [m]
   T reach = T(0);                     ///< where pushes begin [m]: ρ, or less while bodies are eased apart
-  T k = T(0), c = T(0);               ///< of the pair [N/m], [N·s/m]
+  T k = T(0), c = T(0), mu = T(0);    ///< of the pair [N/m], [N·s/m], 1
   T rest = T(0);                      ///< the push, were there no motion [N]; it may pull
   T push = T(0);                      ///< f [N], ≥ 0
   Vector<T> rub = Vector<T>::Zero();  ///< friction on the point [N]
@@ -100,13 +101,12 @@ void share(std::span<const Touch<T>> touches, std::vector<T>& S) {
 /// Friction [N] on the point of a contact that pushes: the impulse that ends the slip of the velocities v₁ in
 /// a step of h, or as much of it as the cone μ·f allows. W: inverse mass of the two parts that meet [1/kg].
 template <class T>
-Vector<T> friction_of(const Touch<T>& touch, T W, const Vector<T>& point_v1, const Vector<T>& face_v1, T mu,
-                      T h) {
+Vector<T> friction_of(const Touch<T>& touch, T W, const Vector<T>& point_v1, const Vector<T>& face_v1, T h) {
   if (!(W > T(0))) return Vector<T>::Zero();
   const Vector<T> r = point_v1 - face_v1;
   const Vector<T> slip = r - dot3<T>(touch.n, r) * touch.n;
   Vector<T> J = (T(1) / W) * slip;
-  const T size = norm3<T>(J), cone = mu * (h * touch.push);
+  const T size = norm3<T>(J), cone = touch.mu * (h * touch.push);
   if (size > cone) J = (cone / size) * J;
   return (T(1) / h) * -J;
 }

@@ -10,7 +10,7 @@ using gl::Binding;
 
 /// By ImplicitTouchPasses::Kernel; which of them have a number, LOCATION_TOUCH_NUMBER.
 constexpr const char* names[] = {"moved", "find", "push", "rub", "react", "gather", "multiply", "product"};
-constexpr bool has_number[] = {true, true, false, true, true, false, false, false};
+constexpr bool has_number[] = {true, true, false, false, false, false, false, false};
 
 }  // namespace
 
@@ -46,13 +46,12 @@ void ImplicitTouchPasses::run(Kernel kernel, std::uint32_t items, float number) 
 }
 
 void ImplicitTouchPasses::queue_forces(float time) const {
-  const auto friction = static_cast<float>(bodies_.model().contact.body_friction);
   run(find, bodies_.encounter_count(), time);
-  if (friction > 0.0f) {
+  if (bodies_.rubs()) {
     run(push, bodies_.listed_count());
-    run(rub, bodies_.encounter_count(), friction);
+    run(rub, bodies_.encounter_count());
   }
-  run(react, bodies_.encounter_count(), friction);
+  run(react, bodies_.encounter_count());
   run(gather, bodies_.listed_count());
 }
 

@@ -36,6 +36,7 @@ class TouchBuffers {
   float most() const;
   /// Until when since the initial state bodies that overlapped in it are eased apart [s].
   double eased_until() const { return lists_->eased_until(); }
+  bool rubs() const { return lists_->rubs(); }  ///< whether any body has friction against others
 
   /// Encounters, particles listed and places, for as many invocations.
   std::uint32_t encounter_count() const { return encounter_count_; }

@@ -43,6 +43,11 @@ TouchLists::TouchLists(const Model& model)
   }
 }
 
+bool TouchLists::rubs() const {
+  return std::ranges::any_of(surfaces_.bodies,
+                             [](const TouchBody& body) { return static_cast<float>(body.friction) > 0.0f; });
+}
+
 std::vector<layout::uvec4> TouchLists::triangles() const {
   std::vector<layout::uvec4> all;
   for (const TouchTriangle& t : surfaces_.triangles)
@@ -82,6 +87,7 @@ layout::TouchEncounter TouchLists::encounter_of(const reference::Encounter& near
   made.margin = static_cast<float>(pair.margin);
   made.tie = static_cast<float>(2e-6 * pair.spacing);
   made.sight = static_cast<float>(pair.sight);
+  made.touch_friction = static_cast<float>(pair.friction);
   made.start_distance = nowhere_near;
   const auto key = [](const auto& of) { return std::tuple(of.point, of.body); };
   const auto start = std::ranges::lower_bound(starts_, key(near), {}, key);

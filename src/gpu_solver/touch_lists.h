@@ -33,6 +33,8 @@ class TouchLists {
   std::span<const layout::uvec4> places() const { return built_; }
   /// Until when since the initial state bodies that overlapped in it are eased apart [s]; 0 if none did.
   double eased_until() const { return eased_until_; }
+  /// Whether any body has friction against others.
+  bool rubs() const;
   /// How far a particle may move from there [m].
   double leeway() const { return near_.leeway(); }
 

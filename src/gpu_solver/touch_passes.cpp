@@ -67,9 +67,7 @@ void TouchPasses::queue_act(const States& states, std::uint32_t step, std::uint3
   const std::array<Binding, 2> ends = {
       {{BINDING_START_STATE, states.start}, {BINDING_OUT_STATE, states.out}}};
   run(push, bodies_.listed_count(), step, ends);
-  const auto friction = static_cast<float>(bodies_.model().contact.body_friction);
-  if (friction > 0.0f) {
-    programs_[rub]->set(LOCATION_TOUCH_NUMBER, friction);
+  if (bodies_.rubs()) {
     run(rub, bodies_.encounter_count(), step, std::span(ends).first(1));
     run(drag, bodies_.listed_count(), step, std::span(ends).last(1));
   }

@@ -102,6 +102,7 @@ Status add_cloth(Model& model, const ModelSettings& settings, const ClothSetting
   }
   const auto columns = static_cast<std::uint32_t>(w), rows = static_cast<std::uint32_t>(h);
   body.style = SurfaceStyle::sheet;
+  body.friction = cloth.friction;
   append_grid(body.listed_surface, {body.first_particle, {columns, rows}, {rows, 1}});
   body.rods = rods_of(model, body.first_particle, columns, rows);
   model.bodies.push_back(std::move(body));

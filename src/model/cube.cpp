@@ -94,6 +94,7 @@ Status add_made(Model& model, const CubeSettings& cube) {
   body.class_count = static_cast<std::uint32_t>(lattice_class_types.size());
   body.lattice = Lattice{cube.lattice(), {}};
   body.size = s * (std::ranges::max(cube.lattice()) - 1);
+  body.friction = cube.friction;
 
   for (std::size_t c = 0; c < lattice_class_types.size(); ++c) {
     const SpringType type = lattice_class_types[c];

@@ -15,7 +15,8 @@ void take_springs(const Model& model, const Body& body, TouchBody& touch) {
     const SpringClass& springs = model.spring_classes[c];
     if (springs.type != SpringType::structural || springs.rest_length >= touch.spacing) continue;
     touch.spacing = springs.rest_length;
-    touch.stiffness = 7.3125 * springs.stiffness;
+    touch.stiffness = lattice_stiffness_share * springs.stiffness;
+    touch.damping = springs.damping;
   }
 }
 
@@ -114,8 +115,10 @@ TouchSurfaces touch_surfaces(const Model& model) {
     if (!has_surface(body)) continue;
     const QuadMesh mesh = surface_of(body);
     TouchBody touch;
+    touch.body = static_cast<std::uint32_t>(&body - model.bodies.data());
     touch.closed = body.style == SurfaceStyle::flesh;
     touch.mass = model.mass[body.first_particle];
+    touch.friction = body.friction.value_or(model.contact.body_friction);
     take_springs(model, body, touch);
     append_points(all, touch, mesh);
     append_triangles(all, touch, mesh);
@@ -132,6 +135,7 @@ TouchPair touch_pair(const ContactSettings& contact, const TouchBody& point_of, 
   pair.stiffness = a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0;
   pair.damping =
       2.0 * contact.body_damping * std::sqrt(pair.stiffness / (1.0 / point_of.mass + 1.0 / face_of.mass));
+  pair.friction = std::min(point_of.friction, face_of.friction);
   pair.spacing = std::min(point_of.spacing, face_of.spacing);
   // Nothing inside an open surface pushes back what has passed its reach.
   pair.reach = (face_of.closed ? 1.0 : 2.5) * contact.body_gap * pair.spacing;

@@ -25,8 +25,12 @@ struct TouchTriangle {
   std::uint32_t side = 0;                    ///< the group of the surface's quads that it belongs to
 };
 
+/// κ of a body in k of its structural springs: E·s of a cube.
+inline constexpr double lattice_stiffness_share = 7.3125;
+
 /// A body with a surface.
 struct TouchBody {
+  std::uint32_t body = 0;  ///< index in Model::bodies
   std::uint32_t first_point = 0, point_count = 0;
   std::uint32_t surface_particles = 0;  ///< the first of its points are those of particles, in their order
   std::uint32_t first_triangle = 0, triangle_count = 0;
@@ -34,11 +38,13 @@ struct TouchBody {
   double stiffness = 0.0;  ///< κ = 7.3125·k of its structural springs, E·s of a cube [N/m]
   double mass = 0.0;       ///< of a particle [kg], of pinned ones too
   double spacing = 0.0;    ///< s [m]
+  double friction = 0.0;   ///< μ
+  double damping = 0.0;    ///< c of these springs [N·s/m]
 
   /// Whether two have the same constants.
   bool alike(const TouchBody& other) const {
     return closed == other.closed && stiffness == other.stiffness && mass == other.mass &&
-           spacing == other.spacing;
+           spacing == other.spacing && friction == other.friction;
   }
 };
 
@@ -66,6 +72,7 @@ TouchSurfaces touch_surfaces(const Model& model);
 struct TouchPair {
   double stiffness = 0.0;  ///< k [N/m]
   double damping = 0.0;    ///< c [N·s/m]
+  double friction = 0.0;   ///< μ
   double spacing = 0.0;    ///< s [m]
   double reach = 0.0;      ///< ρ [m]: where pushes begin
   double sight = 0.0;      ///< up to where contacts are found [m]

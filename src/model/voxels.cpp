@@ -123,6 +123,7 @@ Status add_voxels(Model& model, const ModelSettings& settings, const VoxelsSetti
   body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
   body.lattice = shape.lattice;
   body.size = voxels.size * (std::ranges::max(shape.lattice.particles) - 1);
+  body.friction = voxels.friction;
   if (!made.uniform() && body.lattice->all_full()) body.lattice->full_cells.assign(shape.full, true);
   if (body.box()) {
     made.append_classes(model.spring_classes);

@@ -32,6 +32,12 @@ Parameter pins(std::string_view body, Parameter p) {
       fixed(row(list "[].velocity", "m/s", within(divergence_speed), FIELD(model.body.velocity),      \
                 "Initial velocity of the particles that are not pinned."))
 
+// μ of a body against others.
+#define BODY_FRICTION(list, body)                                          \
+  absent("contact.body-friction",                                          \
+         row(list "[].friction", "", friction, FIELD(model.body.friction), \
+             "Friction coefficient against other bodies, of which the smaller of the two counts."))
+
 /// Particles along the edges of a cube: one number, or three, of which the one that is set last counts.
 Rows particle_rows() {
   Parameter edges =
@@ -90,7 +96,8 @@ Rows cube_rows() {
        MATERIAL_ROWS("cube", MATERIAL,
                      "Density ρ, from which m = ρ·edge³/n³, or ρ·volume over the particles of a box.",
                      "Young's modulus E along an axis, from which k = E·s/7.3125 at spacing s."),
-       {fixed(pins("cube", row("cube[].pinned", FIELD(model.cubes[i].pinned),
+       {BODY_FRICTION("cube", cubes[i]),
+        fixed(pins("cube", row("cube[].pinned", FIELD(model.cubes[i].pinned),
                                "Particles that never move: faces, corners such as left-top-front, or local "
                                "indices.")))}});
 }
@@ -149,10 +156,11 @@ Rows cloth_rows() {
                      "Young's modulus E of the sheet, whose Poisson's ratio is 1/3, along width and height."),
        of(Belonging::material, {row("cloth[].thickness", "m", positive_length,
                                     FIELD(model.cloths[i].thickness), "Thickness of the sheet.")}),
-       {fixed(
-           pins("cloth", row("cloth[].pinned", FIELD(model.cloths[i].pinned),
-                             "Particles that never move: edges, corners such as top-left, or local indices "
-                             "i·h + j.")))}});
+       {BODY_FRICTION("cloth", cloths[i]),
+        fixed(
+            pins("cloth", row("cloth[].pinned", FIELD(model.cloths[i].pinned),
+                              "Particles that never move: edges, corners such as top-left, or local indices "
+                              "i·h + j.")))}});
 }
 
 /// Cells of a file, which take the place of layers when the scene is read: no scene has the key.
@@ -235,6 +243,7 @@ Rows voxel_rows() {
        {fixed(word<piece_choices>("voxels[].pieces", FIELD(model.voxels[i].pieces),
                                   "What becomes of cells that share no face with the others: the scene is "
                                   "refused, the largest piece is kept, or all are.")),
+        BODY_FRICTION("voxels", voxels[i]),
         fixed(pins("voxels", row("voxels[].pinned", FIELD(model.voxels[i].pinned),
                                  "Particles that never move: faces, corners such as left-top-front, or local "
                                  "indices."))),

@@ -79,7 +79,7 @@ Rows contact_rows() {
       fixed(row("contact.self", FIELD(model.contact.self),
                 "Whether a cube or cloth touches itself, where parts meet that are apart at rest.")),
       row("contact.body-friction", "", friction, FIELD(model.contact.body_friction),
-          "Friction coefficient between bodies that touch."),
+          "Friction coefficient of bodies that do not set their own; of two that touch the smaller counts."),
       row("contact.body-gap", "", {0.0, 1.0, true}, FIELD(model.contact.body_gap),
           "Distance at which bodies begin to push each other, in spacings of their particles."),
       row("contact.body-damping", "", fraction, FIELD(model.contact.body_damping),

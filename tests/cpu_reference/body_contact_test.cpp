@@ -195,6 +195,24 @@ TEST(BodyContact, SlidesAsCoulombSaysWhereverTheParticlesAre) {
   }
 }
 
+// Of two bodies the smaller friction counts, whichever has it.
+TEST(BodyContact, SlidesByTheSmallerFrictionOfTheTwo) {
+  const double tangent = std::tan(std::numbers::pi / 6);
+  const auto slid = [&](std::optional<double> slab, std::optional<double> cube, double of_all) {
+    ModelSettings settings = on_slope(tangent, of_all, 0.25, 17.0);
+    settings.cubes[0].friction = slab;
+    settings.cubes[1].friction = cube;
+    settings.cubes[1].velocity = {1, 0, 0};
+    return test::after(build(settings), 300, Precision::single);
+  };
+  const State expected = slid({}, {}, 0.2);
+  EXPECT_EQ(slid(0.2, 0.9, 0.5), expected);
+  EXPECT_EQ(slid(0.9, 0.2, 0.5), expected);
+  EXPECT_EQ(slid(0.2, {}, 0.5), expected);
+  EXPECT_EQ(slid({}, 0.9, 0.2), expected);
+  EXPECT_FALSE(slid(0.3, 0.9, 0.5) == expected);
+}
+
 TEST_P(EveryExplicitMethod, SticksWithinTheConeAndSlidesBeyond) {
   const Model steep = build(on_slope(1.1 * 0.5, 0.5, 0.25, 0.0));
   ModelSettings within = on_slope(0.9 * 0.5, 0.5, 0.25, 0.0);
@@ -379,6 +397,42 @@ TEST(BodyContact, PinnedBodiesPushAndStay) {
   EXPECT_EQ(mean(end.position, model.bodies[0]),
             mean(initial_state(model, Precision::double_).position, model.bodies[0]));
   EXPECT_GT(mean(end.position, model.bodies[1]).y, 2 * S);
+}
+
+/// A cube in the inner corner of a pinned L, gravity along the diagonal, once so many steps have passed.
+struct InCorner {
+  double along = 0.0, rest = 0.0;  ///< mean speed along the notch, and the fastest motion without it [m/s]
+};
+InCorner in_corner(double friction, std::uint64_t steps) {
+  ModelSettings settings = test::touching({cube_of(3, {0.4 * S, 0.5 * S, 0})});
+  VoxelsSettings& corner = settings.voxels.emplace_back();
+  corner.size = S;
+  corner.position = {};
+  corner.material.youngs_modulus = 7.3125 * 2000.0 / S;
+  corner.material.density = 1.0 / (S * S * S);
+  // 6 × 6 × 4 cells, of which 4 × 4 × 4 are missing.
+  corner.layers.assign(6, CellLayers::value_type(4, "11...."));
+  for (std::size_t y = 0; y < 2; ++y) corner.layers[y].assign(4, "111111");
+  settings.simulation.gravity = {-6.93, -6.93, 0};
+  settings.contact.body_friction = friction;
+  Model model = build(settings);
+  const Body& held = model.bodies[1];
+  Runs<double> inverse_mass;
+  for (std::uint32_t i = 0; i < model.particle_count(); ++i)
+    inverse_mass.push_back(i < held.first_particle ? model.inverse_mass[i] : 0.0);
+  model.inverse_mass = inverse_mass;
+  const State end = test::after(model, steps);
+  InCorner found;
+  found.along = mean(end.velocity, model.bodies[0]).z;
+  for (std::uint32_t i = 0; i < 27; ++i)
+    found.rest = std::max(found.rest, length(end.velocity[i] - Vec3{0, 0, found.along}));
+  return found;
+}
+
+// Second sides stop the trembling; without friction nothing holds the glide along the notch.
+TEST(BodyContact, RestsInANotch) {
+  EXPECT_LE(in_corner(0.3, 3000).rest, 1e-3);
+  EXPECT_LE(in_corner(0.0, 3000).rest, 1e-4);
 }
 
 // ---- a body with itself ----

@@ -110,6 +110,23 @@ TEST_F(Touching, HasTheReferencesBitsOfBodiesThatTouchThemselvesWithoutFriction)
   EXPECT_EQ(by_device(model, 120), by_reference(model, 120));
 }
 
+// Of two bodies the smaller friction counts; of one none at all.
+TEST_F(Touching, HasTheReferencesBitsOfBodiesWithFrictionOfTheirOwn) {
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::implicit_euler}) {
+    ModelSettings settings = pile(integrator, ContactModel::coulomb);
+    if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 0.005;
+    const std::uint64_t steps = integrator == Integrator::implicit_euler ? 30 : 120;
+    const State alike = by_reference(test::build(settings), steps);
+    settings.cubes[0].friction = 0.7;
+    settings.cubes[1].friction = 0.05;
+    settings.cloths[0].friction = 0.0;
+    const Model model = test::build(settings);
+    const State expected = by_reference(model, steps);
+    EXPECT_FALSE(expected == alike);
+    EXPECT_EQ(by_device(model, steps), expected) << name_of(integrator);
+  }
+}
+
 TEST_F(Touching, HasTheReferencesBitsWithBallsAndInputs) {
   ModelSettings settings = pile(Integrator::midpoint, ContactModel::coulomb);
   settings.balls.push_back({0.3, 2.0, {1.6, 2.2, 0.2}, {-3.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});

@@ -87,7 +87,8 @@ class World:
         self.w = np.where(self.free, 1.0 / self.m, 0.0)
         self.touch = None
         if contact["bodies"] or contact["self"]:
-            surfaces = [Surface(tuple(made["n"]), made["s"], made["k"], made["m"], start, self.x)
+            surfaces = [Surface(tuple(made["n"]), made["s"], made["k"], made["m"], start, self.x,
+                                contact["body-friction"] if made["mu"] is None else made["mu"])
                         for made, start in zip((surface_facts(c) for c in scene["cube"]), starts)]
             self.touch = Touch(self, surfaces, contact)
 

@@ -27,6 +27,7 @@ TERRAIN = {
 CUBE = {
     "particles-per-edge": 10, "particles": None, "edge-length": 4.0, "position": [0.0, 9.0, 0.0],
     "rotation": {"axis": [1.0, 0.0, 1.0], "angle": 0.0}, "velocity": [0.0, 0.0, 0.0], "pinned": [],
+    "friction": None,
 }
 CUBE_BY_SPRING = {"particle-mass": 1.0, "structural": SPRING, "shear": SPRING, "bending": SPRING}
 CUBE_BY_MATERIAL = {"material": {"density": 16.0, "youngs-modulus": 33000.0, "damping-ratio": 0.95}}
@@ -167,8 +168,8 @@ def build_cube(table, readings, where):
 
 
 def surface_facts(table):
-    """What contact between cubes needs of one whose table build_cube() has taken: n, s, k of structural springs, m."""
+    """What contact between cubes needs of one whose table build_cube() has taken: n, s, k of structural springs, m, mu if it has its own."""
     cube = filled(table, CUBE | (CUBE_BY_MATERIAL if "material" in table else CUBE_BY_SPRING), "cube")
     (m, *_), (_, _, r, k, _) = build_cube(table, Readings(), "cube")
     n = np.array(cube["particles"] or [cube["particles-per-edge"]] * 3)
-    return {"n": n, "s": r.min(), "k": k[r.argmin()], "m": m[0]}
+    return {"n": n, "s": r.min(), "k": k[r.argmin()], "m": m[0], "mu": cube["friction"]}

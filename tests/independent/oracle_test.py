@@ -78,7 +78,7 @@ SCENES = {
     # Bodies that touch: an edge and a corner on a face, light on heavy, one held; and a slide on another cube.
     "two bodies": ("cube-plane", {"contact.bodies": "true", "contact.body-friction": 0.4, "cube[0].position": "[0.0, -0.05, 0.0]",
                                   "cube[0].particles": "[4, 3, 4]", "cube[0].edge-length": 1.8, "cube[0].rotation.axis": "[0.0, 1.0, 0.0]",
-                                  "cube[0].rotation.angle": 10.0, "cube[0].pinned": '["left-bottom-front"]'},
+                                  "cube[0].rotation.angle": 10.0, "cube[0].pinned": '["left-bottom-front"]', "cube[0].friction": 0.15},
                    SECOND_CUBE.format(n=3, edge=0.9, position="[0.5, 1.2, 0.1]", angle=25.0, velocity="[1.0, -2.0, 0.5]"), 1),
     "bodies that overlap": ("cube-plane", {"contact.bodies": "true", "contact.self": "true", "cube[0].position": "[0.0, 0.6, 0.0]",
                                            "cube[0].particles": "[3, 3, 3]", "cube[0].edge-length": 1.0},

@@ -17,7 +17,8 @@ def dot(a, b):
 class Surface:
     """Points and triangles of a cube of n particles along its edges, the first of which is `first`."""
 
-    def __init__(self, n, spacing, stiffness, mass, first, x):
+    def __init__(self, n, spacing, stiffness, mass, first, x, mu):
+        self.mu = float(mu)
         self.spacing, self.kappa, self.mass = spacing, YOUNGS_MODULUS_PER_STIFFNESS * stiffness, mass
         at = np.arange(np.prod(n)).reshape(n) + first
         triangles, sides, edges = [], [], {}
@@ -72,7 +73,6 @@ class Touch:
 
     def __init__(self, world, surfaces, contact):
         self.world, self.surfaces = world, surfaces
-        self.mu = float(contact["body-friction"])
         self.gap, self.zeta = float(contact["body-gap"]), float(contact["body-damping"])
         self.pairs = [(a, b) for a in range(len(surfaces)) for b in range(len(surfaces))
                       if (contact["self"] if a == b else contact["bodies"])]
@@ -101,7 +101,7 @@ class Touch:
 
     def contacts(self, x, v, solve=0):
         """Of the explicit methods, or of implicit Euler's first or second solve."""
-        found = {key: [] for key in ("pair", "point", "index", "weight", "n", "d", "reach", "push", "rest", "c")}
+        found = {key: [] for key in ("pair", "point", "index", "weight", "n", "d", "reach", "push", "rest", "c", "mu")}
         for pair in self.pairs:
             for contact in self.of_pair(*pair, x, v, solve):
                 for key, value in contact.items():
@@ -158,14 +158,14 @@ class Touch:
                 u = n @ (weight @ v[index])
                 rest = k * (far - d) + (c * u if solve == 2 else 0.0)
                 yield {"pair": (a, b), "point": point, "index": index, "weight": weight, "n": n, "d": d, "reach": far,
-                       "push": max(0.0, rest - c * u), "rest": rest, "c": c}
+                       "push": max(0.0, rest - c * u), "rest": rest, "c": c, "mu": min(A.mu, B.mu)}
 
     def forces(self, x, v, f):
         """The forces f with pushes and friction."""
         found = self.contacts(x, v)
         if not found["push"]:
             return f
-        f, rub = self.rubbing({key: np.array(found[key]) for key in ("index", "weight", "n", "push")}, f)
+        f, rub = self.rubbing({key: np.array(found[key]) for key in ("index", "weight", "n", "push", "mu")}, f)
         np.add.at(f, found["index"], np.array(found["weight"])[..., None] * rub[:, None])
         return f
 
@@ -182,7 +182,7 @@ class Touch:
         r = (weight[..., None] * v1[index]).sum(1)
         slip = r - dot(r, n)[:, None] * n
         J = slip / np.where(W > 0, W, np.inf)[:, None]
-        size, cone = np.linalg.norm(J, axis=1), self.mu * h * push
+        size, cone = np.linalg.norm(J, axis=1), found["mu"] * h * push
         J *= np.where(size > cone, cone / np.where(size > 0, size, 1), 1)[:, None]
         self.touched = True
         return f, -J / h
@@ -192,7 +192,7 @@ class Touch:
         found = {key: np.array(value) for key, value in self.contacts(x, v, solve).items() if key not in ("pair", "point")}
         if not len(found["push"]):
             return None
-        return found | {"rub": self.rubbing(found, f)[1], "cone": self.mu * found["push"]}
+        return found | {"rub": self.rubbing(found, f)[1], "cone": found["mu"] * found["push"]}
 
     def react(self, held, v):
         """Forces of these contacts at the velocities v of the step's end, and -h times their derivative by these, as an
