@@ -23,10 +23,11 @@ struct Measures {
   /// Σ ½ k (L − r)² [J], of actuated springs with the rest length r of the state's time, of pushes between
   /// bodies Σ ½ k (ρ − d)²; a slack cord holds none
   double elastic = 0.0;
-  double gravitational = 0.0;  ///< −Σ m g·x [J], zero at the origin
-  Vec3 momentum;               ///< Σ m v [N·s]
-  double max_speed = 0.0;      ///< [m/s]
-  double min_height = 0.0;     ///< lowest y of all particles and balls' centres [m]; 0 without any
+  std::optional<double> contact;  ///< of it, what these pushes hold [J]; nothing where bodies cannot touch
+  double gravitational = 0.0;     ///< −Σ m g·x [J], zero at the origin
+  Vec3 momentum;                  ///< Σ m v [N·s]
+  double max_speed = 0.0;         ///< [m/s]
+  double min_height = 0.0;        ///< lowest y of all particles and balls' centres [m]; 0 without any
 
   ASPIC_API double total() const;  ///< kinetic, elastic and gravitational [J]
 };
@@ -57,8 +58,8 @@ struct StateQuantities {
   std::vector<double> mean_strain;  ///< mean |L/r − 1| of its springs, as pictures show it; 0 without any
   std::vector<double> mean_actuation;  ///< mean r/r₀ − 1 of its springs; empty without actuators
   std::vector<Vec3> force;             ///< net, with contact [N]: zero at rest, and of pinned particles
-  std::vector<Vec3> contact_force;     ///< of terrain [N]; a bounce is an impulse, which no state holds
-  std::vector<std::uint8_t> contact;   ///< 1: it touches terrain; of pinned particles 0
+  std::vector<Vec3> contact_force;     ///< of terrain and bodies [N]; a bounce is an impulse, in no state
+  std::vector<std::uint8_t> contact;   ///< 1: it touches terrain or a body; of pinned particles 0
   /// L/r − 1 by spring, in the order of spring_facts(), with the rest length r that it has at the time; 0
   /// where r = 0
   std::vector<double> strain;

@@ -78,7 +78,7 @@ class Body:
 
     @property
     def contacts(self) -> NDArray[np.bool_]:
-        """Which of its particles touch the ground, (n,)."""
+        """Which of its particles touch the ground or are pushed by another body, (n,)."""
         return self._simulation.quantities.contact[self._slice]
 
     @property

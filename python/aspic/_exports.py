@@ -46,7 +46,7 @@ KINDS: dict[str, Kind] = {
     "speed": Kind(SCALAR, "m/s", "speed of the particles"),
     "mean-strain": Kind(SCALAR, "1", "mean |L/r − 1| of a particle's springs"),
     "force": Kind(VECTOR, "N", "net force on the particles"),
-    "contact-force": Kind(VECTOR, "N", "force of terrain on the particles"),
+    "contact-force": Kind(VECTOR, "N", "force of terrain and other bodies on the particles"),
     "contact": Kind(SCALAR, "", "1 where a particle touches terrain"),
     "strain": Kind(("spring",), "1", "L/r − 1 of the springs"),
     "tension": Kind(("spring",), "N", "force of the springs, positive where they pull"),

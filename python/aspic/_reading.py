@@ -59,11 +59,11 @@ class Quantities(NamedTuple):
     mean_strain: NDArray[np.float64]
     """Mean |strain| of a particle's springs, (n,)."""
     force: NDArray[np.float64]
-    """On particles, with the reaction of the ground and of pins, (n, 3) [N]."""
+    """On particles, with the reaction of the ground, of other bodies and of pins, (n, 3) [N]."""
     contact_force: NDArray[np.float64]
-    """Of the ground on particles, (n, 3) [N]."""
+    """Of the ground and of other bodies on particles, (n, 3) [N]."""
     contact: NDArray[np.bool_]
-    """Whether particles touch the ground, (n,)."""
+    """Whether particles touch the ground or are pushed by another body, (n,)."""
     strain: NDArray[np.float64]
     """L/r − 1 of springs, (m,); in the order of ``springs``."""
     tension: NDArray[np.float64]

@@ -61,7 +61,10 @@ Measures measure(const Model& model, const State& state, const Inputs& inputs) {
     if (c.cord && stretch < 0.0) continue;
     m.elastic += 0.5 * c.stiffness * stretch * stretch;
   }
-  if (bodies_touch(model)) m.elastic += push_energy(model, state);
+  if (bodies_touch(model)) {
+    m.contact = push_energy(model, state);
+    m.elastic += *m.contact;
+  }
   return m;
 }
 

@@ -15,24 +15,29 @@ using Vector = reference::Vector<double>;
 }  // namespace
 
 std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder& springs, const State& state,
-                                         const Inputs& inputs) {
+                                         const Inputs& inputs, const TouchForces* bodies) {
   assert(check_sizes(model, state));
   const reference::ContactConstants<double> constants(model);
   std::vector<Ground<double>> grounds(model.terrain.begin(), model.terrain.end());
   for (Ground<double>& ground : grounds) ground.begin_step(model.simulation.timestep, state.step);
   const auto back = [](const Vector& a) { return Vec3{a.x(), a.y(), a.z()}; };
   std::vector<ParticleContact> contacts;
+  const std::span<const TouchForce> touched = bodies ? bodies->forces() : std::span<const TouchForce>();
+  auto next = touched.begin();
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
     const double w = inverse_mass_of(model, inputs, i);
+    while (next != touched.end() && next->particle < i) ++next;
     if (w == 0.0) continue;
+    if (next != touched.end() && next->particle == i)
+      contacts.push_back({i, ParticleContact::of_bodies, next->normal, next->force});
     const Vector x = reference::rounded<double>(state.position[i]);
     std::optional<Vector> f;
     for (std::size_t k = 0; k < grounds.size(); ++k) {
       const Ground<double>& ground = grounds[k];
       if (!(reference::distance<double>(ground, ground.start, x) < constants.epsilon)) continue;
       if (!f) {
-        const ParticleForce force = particle_force(model, springs, state, i, inputs);
-        f = reference::rounded<double>(force.gravity + force.springs + force.pull);
+        const ParticleForce force = particle_force(model, springs, state, i, inputs, bodies);
+        f = reference::rounded<double>(force.gravity + force.springs + force.pull + force.bodies);
       }
       const Vector before = *f;
       f = with_contact(model, constants, ground, w, x, reference::rounded<double>(state.velocity[i]), before);

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "analysis/contact_force.h"
+#include "analysis/touch_forces.h"
 #include "cpu_reference/spring.h"
 #include "model/counts.h"
 #include "model/inputs.h"
@@ -49,7 +50,7 @@ std::vector<Spring> SpringFinder::of(const Model& model, std::uint32_t particle)
 }
 
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
-                             std::uint32_t particle, const Inputs& inputs) {
+                             std::uint32_t particle, const Inputs& inputs, const TouchForces* bodies) {
   using Vector = reference::Vector<double>;
   assert(check_sizes(model, state) && particle < model.particle_count());
   const auto exact = [](const Vec3& v) { return reference::rounded<double>(v); };
@@ -80,6 +81,10 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
     net += f;
   }
   force.pull = back(pulls);
+  if (bodies) {
+    force.bodies = bodies->on(particle);
+    net += exact(force.bodies);
+  }
   const double w = inverse_mass_of(model, inputs, particle);
   force.applied = back(net);
   if (w == 0.0) {

@@ -23,11 +23,14 @@ class SpringFinder {
   std::uint32_t widest_ = 0;  // largest b − a
 };
 
+class TouchForces;
+
 /// Forces on one particle at a state [N] (docs/physics.md, sections 1 and 5).
 struct ParticleForce {
   Vec3 gravity;  ///< m·g
   Vec3 springs;  ///< sum over its springs
   Vec3 pull;     ///< sum over the pulls on it
+  Vec3 bodies;   ///< pushes and friction of other bodies
   Vec3 applied;  ///< f: all but pins and the Coulomb model's reaction, summed in the solvers' order
   Vec3 contact;  ///< of terrain: the course model's force, or the reaction in the step that begins here
   Vec3 pin;      ///< what holds a pinned particle against the others
@@ -37,9 +40,10 @@ struct ParticleForce {
 };
 
 /// The state must have the model's numbers of particles; `particle` is one of them; `inputs` are
-/// those of the solver (Solver::inputs()).
+/// those of the solver (Solver::inputs()). `bodies`: found at this state with these inputs; null: none touch.
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
-                             std::uint32_t particle, const Inputs& inputs = {});
+                             std::uint32_t particle, const Inputs& inputs = {},
+                             const TouchForces* bodies = nullptr);
 
 /// Forces on one ball at a state [N]: gravity and pulls, which are all of `net`; terrain, particles and
 /// other balls act by impulses. The state must have the model's numbers; `ball` is one of them; `inputs`

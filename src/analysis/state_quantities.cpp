@@ -67,7 +67,9 @@ StateQuantities quantities_of(const Model& model, const State& state, const Inpu
   }
   q.contact_force.resize(count);
   q.contact.resize(count);
-  for (const ParticleContact& c : contacts_of(model, SpringFinder(model), state, inputs)) {
+  const SpringFinder springs(model);
+  const TouchForces bodies(model, springs, state, inputs);
+  for (const ParticleContact& c : contacts_of(model, springs, state, inputs, &bodies)) {
     q.contact[c.particle] = 1;
     q.contact_force[c.particle] = q.contact_force[c.particle] + c.force;
     q.force[c.particle] = q.force[c.particle] + c.force;

@@ -17,6 +17,7 @@
 #include "app/units.h"
 #include "base/printable.h"
 #include "model/springs.h"
+#include "model/touch_surface.h"
 
 namespace aspic::app {
 namespace {
@@ -26,11 +27,14 @@ struct Curve {
   ImU32 colour;
   double (*value)(const Measures&);
 };
-constexpr std::array<Curve, 4> energy_curves = {
+/// The last one where bodies can touch.
+constexpr std::array<Curve, 5> energy_curves = {
     {{"kinetic", IM_COL32(242, 176, 92, 255), [](const Measures& m) { return m.kinetic; }},
      {"elastic", IM_COL32(120, 205, 140, 255), [](const Measures& m) { return m.elastic; }},
      {"gravitational", IM_COL32(110, 165, 240, 255), [](const Measures& m) { return m.gravitational; }},
-     {"total", IM_COL32(230, 232, 236, 255), [](const Measures& m) { return m.total(); }}}};
+     {"total", IM_COL32(230, 232, 236, 255), [](const Measures& m) { return m.total(); }},
+     {"of contact", IM_COL32(225, 130, 190, 255),
+      [](const Measures& m) { return m.contact.value_or(0.0); }}}};
 
 constexpr std::array<Curve, 4> momentum_curves = {
     {{"p, along x", IM_COL32(238, 120, 110, 255), [](const Measures& m) { return m.momentum.x; }},
@@ -220,6 +224,7 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
   label_column("Compare");
   choice(gui, fmt::format("{}/compared", name), names, names, compared,
          "The quantity that the plot shows, of each run in the colour of its name.");
+  compared = std::min(compared, curves.size() - 1);
   const Curve& curve = curves[compared];
   std::vector<Line> lines;
   for (std::size_t i = 0; i < comparison.count(); ++i)
@@ -288,8 +293,10 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
       gui.mark("{}/{}", name, c.name);
     }
   };
-  show("energy/plot", energy_curves, comparison_view.compared[0], "J",
-       "Energies of the run over time [J]. The gravitational one is zero at the origin. A click goes to that "
+  const bool touch = bodies_touch(s.model());
+  show("energy/plot", std::span(energy_curves).first(touch ? 5 : 4), comparison_view.compared[0], "J",
+       "Energies of the run over time [J]. The gravitational one is zero at the origin; that of contact is "
+       "the part of the elastic one that pushes between bodies hold. A click goes to that "
        "moment. At rest explicit Euler keeps a little kinetic energy: within a step gravity and contact act "
        "one "
        "after the other.");

@@ -79,6 +79,7 @@ Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered
     row("  gravity", f.gravity, "N", components);
     if (!h.ball) row("  springs", f.springs, "N", components);
     if (f.pull != Vec3{}) row("  hand", f.pull, "N", components);
+    if (f.bodies != Vec3{}) row("  bodies", f.bodies, "N", components);
     if (f.contact != Vec3{}) row("  contact", f.contact, "N", components);
     if (f.pin != Vec3{}) row("  pin", f.pin, "N", components);
     ImGui::EndTable();

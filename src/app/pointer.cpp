@@ -96,13 +96,15 @@ void Pointer::describe(std::uint32_t particle) {
   const State& state = simulation_.snapshot();
   if (!incident_ || incident_model_ != simulation_.present().model_number()) {
     incident_.emplace(model);
+    touching_ = std::make_unique<TouchForces>(model);
     incident_model_ = simulation_.present().model_number();
   }
   Hovered h;
   h.particle = particle;
   h.position = state.position[particle];
   h.velocity = state.velocity[particle];
-  h.force = particle_force(model, *incident_, state, particle, simulation_.inputs());
+  touching_->find(*incident_, state, simulation_.inputs());
+  h.force = particle_force(model, *incident_, state, particle, simulation_.inputs(), touching_.get());
   h.mass = model.mass[particle];
   h.pinned = inverse_mass_of(model, simulation_.inputs(), particle) == 0.0;
   hovered_ = std::move(h);

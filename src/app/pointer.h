@@ -4,10 +4,11 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "analysis/particle_force.h"
+#include "analysis/touch_forces.h"
 #include "app/hands.h"
 #include "app/scene_picture.h"
 #include "app/view.h"
@@ -80,7 +81,8 @@ class Pointer {
   double pressed_time_ = -1e9, pressed_x_ = 0.0, pressed_y_ = 0.0;  // the last press that was no double one
   std::optional<Hovered> hovered_;
   std::optional<Question> asked_;
-  std::optional<SpringFinder> incident_;  // of the model with that number
+  std::optional<SpringFinder> incident_;   // of the model with that number
+  std::unique_ptr<TouchForces> touching_;  // likewise
   std::uint64_t incident_model_ = 0;
 };
 

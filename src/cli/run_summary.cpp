@@ -41,6 +41,11 @@ Json to_json(const RunReport& run) {
   const Json logged =
       inputs.empty() ? Json() : Json{{"entries", inputs.entries().size()}, {"hash", inputs.hash_text()}};
   const Json solves = outcome.solves ? to_json(*outcome.solves) : Json();
+  Json energies = {{"kinetic", m.kinetic},
+                   {"elastic", m.elastic},
+                   {"gravitational", m.gravitational},
+                   {"total", m.total()}};
+  if (m.contact) energies["contact"] = *m.contact;
   return {
       {"scene", scene.name},
       {"backend", backend.row->name},
@@ -64,10 +69,7 @@ Json to_json(const RunReport& run) {
       {"diverged", diverged},
       {"interrupted", outcome.interrupted},
       {"implicit_solves", solves},
-      {"energies", Json{{"kinetic", m.kinetic},
-                        {"elastic", m.elastic},
-                        {"gravitational", m.gravitational},
-                        {"total", m.total()}}},
+      {"energies", energies},
       {"momentum", Json{m.momentum.x, m.momentum.y, m.momentum.z}},
       {"max_speed", m.max_speed},
       {"min_height", m.min_height},
@@ -92,9 +94,10 @@ std::string to_text(const RunReport& run) {
   text += fmt::format("reached      step {} of {}, t = {:.6g} s\n", state.step, outcome.last_step, time);
   text += fmt::format("took         {:.3g} s, {:.4g} steps/s\n", outcome.wall_seconds,
                       outcome.steps_per_second());
-  text +=
-      fmt::format("energy       kinetic {:.6g} J, elastic {:.6g} J, gravitational {:.6g} J, total {:.6g} J\n",
-                  m.kinetic, m.elastic, m.gravitational, m.total());
+  text += fmt::format(
+      "energy       kinetic {:.6g} J, elastic {:.6g} J{}, gravitational {:.6g} J, total {:.6g} J\n",
+      m.kinetic, m.elastic, m.contact ? fmt::format(" ({:.3g} J of contact)", *m.contact) : "",
+      m.gravitational, m.total());
   text += fmt::format("extremes     fastest {:.6g} m/s, lowest y = {:.6g} m\n", m.max_speed, m.min_height);
   if (outcome.solves) {
     const SolveStatistics& s = *outcome.solves;

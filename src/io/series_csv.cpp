@@ -6,8 +6,18 @@ namespace aspic {
 
 Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite overwrite, bool solves) {
   ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
-  ASPIC_CHECK(file.write(fmt::format("{}{}\n", series_csv_header, solves ? series_csv_solve_header : "")));
   return SeriesWriter(std::move(file), solves);
+}
+
+Status SeriesWriter::write_header(bool contact) {
+  has_contact_ = contact;
+  return file_.write(fmt::format("{}{}{}\n", series_csv_header, has_solves_ ? series_csv_solve_header : "",
+                                 contact ? series_csv_contact_header : ""));
+}
+
+Status SeriesWriter::finish() {
+  if (!has_row_) ASPIC_CHECK(write_header(false));
+  return file_.commit();
 }
 
 Status SeriesWriter::add(const Model& model, const State& state, const SolveStatistics& solves) {
@@ -20,6 +30,7 @@ Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, con
   if (const auto bad = first_not_finite(m)) {
     return fail(ErrorCode::diverged, "{}: {} of step {} is not a finite number.", file_.path(), *bad, step);
   }
+  if (!has_row_) ASPIC_CHECK(write_header(m.contact.has_value()));
   has_row_ = true;
   last_step_ = step;
   std::string row =
@@ -32,6 +43,7 @@ Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, con
                        solves.not_converged - before_.not_converged);
     before_ = solves;
   }
+  if (has_contact_) row += fmt::format(",{}", m.contact.value_or(0.0));
   return file_.write(row + "\n");
 }
 

@@ -20,10 +20,14 @@ inline constexpr std::string_view series_csv_header =
 inline constexpr std::string_view series_csv_solve_header =
     ",newton_iterations,cg_iterations,residual,converged,stagnated,not_converged";
 
+/// What follows these in a model whose bodies can touch: of the elastic energy, that of pushes between them.
+inline constexpr std::string_view series_csv_contact_header = ",contact";
+
 /// Writes rows during a run; the file appears when finish() succeeds.
 class SeriesWriter {
  public:
-  /// Opens the file (AtomicFile::create) and writes the header, with the columns of solves if `solves`.
+  /// Opens the file (AtomicFile::create). The header comes with the first row, with the columns of solves if
+  /// `solves`, and that of contact if the row has it.
   static Result<SeriesWriter> create(const std::string& path, Overwrite overwrite, bool solves = false);
 
   /// Appends the row of a state unless the last row was of the same step; time is step · h [s]. `solves` are
@@ -34,12 +38,14 @@ class SeriesWriter {
   Status add(std::uint64_t step, double time, const Measures& measures, const SolveStatistics& solves = {});
 
   /// Completes the file with the rows so far.
-  Status finish() { return file_.commit(); }
+  Status finish();
 
  private:
   SeriesWriter(AtomicFile file, bool solves) : file_(std::move(file)), has_solves_(solves) {}
   AtomicFile file_;
-  bool has_solves_ = false;
+  Status write_header(bool contact);
+
+  bool has_solves_ = false, has_contact_ = false;
   SolveStatistics before_;  // as of the last row
   bool has_row_ = false;
   std::uint64_t last_step_ = 0;

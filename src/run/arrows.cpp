@@ -89,6 +89,8 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
   set.room = longest * (spacing > 0.0 ? spacing : 1.0) * stride;
   set.noise = noise_of(model, state);
   const SpringFinder springs(model);
+  TouchForces bodies_touched(model);
+  if (wanted.contacts || wanted.net) bodies_touched.find(springs, state, inputs);
   const auto add = [&](bool shown, std::uint32_t particle, const Vec3& value, ArrowKind kind) {
     if (shown) set.arrows.push_back({state.position[particle], value, kind});
   };
@@ -96,7 +98,7 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
     const Body& body = model.bodies[b];
     for (std::uint32_t i = body.first_particle; i < body.first_particle + body.particle_count; ++i) {
       if (!(wanted.springs || wanted.external || wanted.net) || !bodies[b].shows(i, false)) continue;
-      const ParticleForce f = particle_force(model, springs, state, i, inputs);
+      const ParticleForce f = particle_force(model, springs, state, i, inputs, &bodies_touched);
       add(wanted.springs, i, f.springs, ArrowKind::springs);
       add(wanted.external, i, f.gravity + f.pull, ArrowKind::external);
       add(wanted.net, i, f.net, ArrowKind::net);
@@ -104,11 +106,11 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
   }
   if (!wanted.contacts) return set;
   std::size_t b = 0;
-  for (const ParticleContact& c : contacts_of(model, springs, state, inputs)) {
+  for (const ParticleContact& c : contacts_of(model, springs, state, inputs, &bodies_touched)) {
     while (b < bodies.size() && c.particle - model.bodies[b].first_particle >= model.bodies[b].particle_count)
       ++b;
     if (b < bodies.size() && !bodies[b].shows(c.particle, true)) continue;
-    add(true, c.particle, c.normal, ArrowKind::normal);
+    add(c.normal != Vec3{}, c.particle, c.normal, ArrowKind::normal);
     add(c.force != Vec3{}, c.particle, c.force, ArrowKind::contact);
   }
   return set;

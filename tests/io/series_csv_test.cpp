@@ -71,5 +71,26 @@ TEST(SeriesCsv, SolveColumnsHoldWhatCameSinceTheRowBefore) {
                                    "3,1.5,1,0,60,61,2,0,0,1,3,1,7,0.125,0,0,1\n");
 }
 
+// In a model whose bodies can touch, the energy of their pushes comes last; other columns keep their places.
+TEST(SeriesCsv, EnergyOfContactFollowsWhereBodiesCanTouch) {
+  const test::TemporaryDirectory dir;
+  auto series = SeriesWriter::create(dir.file("e.csv"), Overwrite::refuse, true);
+  ASSERT_TRUE(series.ok());
+  Measures m;
+  m.elastic = 7.0;
+  m.contact = 2.5;
+  ASSERT_TRUE(series->add(0, 0.0, m).ok());
+  ASSERT_TRUE(series->finish().ok());
+  EXPECT_EQ(dir.read("e.csv"), std::string(series_csv_header) + std::string(series_csv_solve_header) +
+                                   ",contact\n0,0,0,7,0,7,0,0,0,0,0,0,0,0,0,0,0,2.5\n");
+}
+
+TEST(SeriesCsv, HasItsHeaderWithoutARowToo) {
+  const test::TemporaryDirectory dir;
+  auto series = SeriesWriter::create(dir.file("e.csv"), Overwrite::refuse);
+  ASSERT_TRUE(series.ok() && series->finish().ok());
+  EXPECT_EQ(dir.read("e.csv"), std::string(series_csv_header) + "\n");
+}
+
 }  // namespace
 }  // namespace aspic

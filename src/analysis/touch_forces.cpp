@@ -1,0 +1,73 @@
+#include "analysis/touch_forces.h"
+
+#include <algorithm>
+
+#include "cpu_reference/body_contact.h"
+#include "model/inputs.h"
+#include "model/integrator.h"
+
+namespace aspic {
+namespace {
+
+using Contact = reference::BodyContact<double>;
+using Vector = reference::Vector<double>;
+
+Vec3 back(const Vector& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// Implicit Euler's pushes are those at the end of a step h [s]; of other methods 0.
+double ahead_step(const SimulationSettings& simulation) {
+  return row_of(simulation.integrator).staged() ? 0.0 : simulation.timestep;
+}
+
+}  // namespace
+
+TouchForces::TouchForces(const Model& model) : model_(model) {
+  if (bodies_touch(model)) contact_ = std::make_unique<Contact>(model, ahead_step(model.simulation));
+}
+
+TouchForces::TouchForces(const Model& model, const SpringFinder& springs, const State& state,
+                         const Inputs& inputs)
+    : TouchForces(model) {
+  find(springs, state, inputs);
+}
+
+TouchForces::~TouchForces() = default;
+
+void TouchForces::find(const SpringFinder& springs, const State& state, const Inputs& inputs) {
+  forces_.clear();
+  if (!contact_) return;
+  const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
+  const Contact::Particles at = {reference::components(x.data()), reference::components(v.data()), 3};
+  if (!contact_->begin_step(state.step, at) || !contact_->find(at)) return;
+  std::vector<Vector> before, pushes(contact_->particles().size(), Vector::Zero());
+  for (const std::uint32_t p : contact_->particles()) {
+    const ParticleForce f = particle_force(model_, springs, state, p, inputs);
+    before.push_back(reference::rounded<double>(f.gravity + f.springs + f.pull));
+  }
+  std::vector<Vector> after = before;
+  contact_->act(
+      at, [&](std::uint32_t p) { return inverse_mass_of(model_, inputs, p); }, after);
+  reference::spread<double>(contact_->touches(), pushes,
+                            [](const auto& touch) { return Vector(touch.push * touch.n); });
+  std::vector<bool> pushed(before.size(), false);
+  for (const auto& touch : contact_->touches()) {
+    if (!(touch.push > 0.0)) continue;
+    for (std::size_t n = 0; n < 5; ++n)
+      if (touch.weight[n] > 0.0) pushed[touch.place[n]] = true;
+  }
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    if (!pushed[n]) continue;
+    const double size = pushes[n].norm();
+    const Vector normal = size > 0.0 ? Vector(pushes[n] / size) : Vector(Vector::Zero());
+    forces_.push_back({contact_->particles()[n], back(normal), back(after[n] - before[n])});
+  }
+}
+
+Vec3 TouchForces::on(std::uint32_t particle) const {
+  const auto found = std::ranges::lower_bound(forces_, particle, {}, &TouchForce::particle);
+  return found != forces_.end() && found->particle == particle ? found->force : Vec3{};
+}
+
+}  // namespace aspic

@@ -1,0 +1,47 @@
+#pragma once
+// What bodies that touch do to each other's particles at a state, in double precision.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "analysis/particle_force.h"
+
+namespace aspic {
+
+namespace reference {
+template <class T>
+class BodyContact;
+}
+
+/// Pushes and friction of other bodies on one particle, of those whose points it carries and those that touch
+/// faces at it (docs/contact.md).
+struct TouchForce {
+  std::uint32_t particle = 0;
+  Vec3 normal;  ///< unit, the direction of the pushes' sum; zero where they balance
+  Vec3 force;   ///< [N]
+};
+
+class TouchForces {
+ public:
+  /// Finds nothing where the model's bodies cannot touch. The model must outlive it.
+  explicit TouchForces(const Model& model);
+  /// The same, with the forces of a state.
+  TouchForces(const Model& model, const SpringFinder& springs, const State& state, const Inputs& inputs);
+  ~TouchForces();
+
+  /// Finds the forces that the step has which begins with this state; under implicit Euler those with which
+  /// its first solve begins. `springs` and `inputs` as in particle_force().
+  void find(const SpringFinder& springs, const State& state, const Inputs& inputs);
+  /// Of particles that are pushed, ascending.
+  std::span<const TouchForce> forces() const { return forces_; }
+  /// On one particle [N].
+  Vec3 on(std::uint32_t particle) const;
+
+ private:
+  const Model& model_;
+  std::unique_ptr<reference::BodyContact<double>> contact_;  // none where no bodies can touch
+  std::vector<TouchForce> forces_;
+};
+
+}  // namespace aspic
