@@ -143,6 +143,31 @@ class ASPIC_API RunFiles {
   std::unique_ptr<Parts> parts_;
 };
 
+/// Tells of bodies that are within each other: once for each pair.
+class ASPIC_API OverlapWatch {
+ public:
+  /// Of a run of this model, which is that of the settings; needs neither later. `starts`: in its initial
+  /// state.
+  OverlapWatch(const ModelSettings& settings, const Model& model, bool starts = true);
+  OverlapWatch(OverlapWatch&&) noexcept;
+  OverlapWatch& operator=(OverlapWatch&&) noexcept;
+  ~OverlapWatch();
+
+  /// Tells nothing of the pairs that the other told of.
+  void knows_what(const OverlapWatch& other);
+
+  /// Pairs that overlap where the run starts, with depth and energy, as a sentence; empty: none does.
+  std::string at_start() const;
+  /// Pairs with points deeper than what pushes them out, of which nothing was told before, likewise.
+  std::string look(const State& state);
+  /// The first step after `step` that is worth a look: every tenth of a second; the largest number: none is.
+  std::uint64_t next_step(std::uint64_t step) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
 /// Time spent on pictures [s], in all. A device works on while the program does: its time shows where it is
 /// waited for.
 struct FrameTimes {

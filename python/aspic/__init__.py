@@ -22,6 +22,7 @@ from ._errors import (
     ErrorCode,
     FileError,
     InterruptedRun,
+    OverlapWarning,
     SceneError,
     UsageError,
 )
@@ -54,6 +55,7 @@ __all__ = [
     "Instance",
     "InterruptedRun",
     "Measures",
+    "OverlapWarning",
     "Parameter",
     "Pull",
     "Quantities",

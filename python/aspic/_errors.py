@@ -17,6 +17,7 @@ __all__ = [
     "ErrorCode",
     "FileError",
     "InterruptedRun",
+    "OverlapWarning",
     "SceneError",
     "UsageError",
 ]
@@ -89,6 +90,10 @@ class InterruptedRun(Error, RuntimeError):
     """The library was asked to end. Ctrl-C raises ``KeyboardInterrupt`` instead."""
 
     code = ErrorCode.INTERRUPTED
+
+
+class OverlapWarning(UserWarning):
+    """Bodies are within each other: at the start of a simulation, or so deep that nothing pushes them apart."""
 
 
 _classes: dict[int, type[Error]] = {

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Union
 
 from . import _aspic
-from ._errors import SceneError, UsageError, diverged
+from ._errors import OverlapWarning, SceneError, UsageError, diverged
 from ._exports import OF_LIBRARY, ending_of
 from ._inputs import Replayable
 from ._scene import Scene, assignments, load
@@ -41,6 +42,9 @@ class Simulation(Replayable):
     ):
         """Makes the solver at the scene's start; later changes of ``scene`` do not matter to it.
 
+        Bodies that overlap there are named by an OverlapWarning; later, one names those that have come so deep into
+        each other that nothing pushes them apart, ten times a simulated second at most and each pair once.
+
         ``scene``: one, or what ``aspic.load()`` takes; ``backend``: ``"auto"`` (a hardware GPU, else ``cpu``),
         ``"gpu"``, ``"cpu"``, ``"reference"``, with options after colons (``"gpu:gather"``, ``"cpu:fast"``);
         ``precision``: only ``reference`` has ``"double"``; ``threads``: of ``cpu``, 1 … 1024, 0: as many as are
@@ -55,6 +59,7 @@ class Simulation(Replayable):
             raise UsageError(f"a number of threads is 1 to 1024, or 0 for as many as are worthwhile, not {threads}")
         doubles = None if precision is None else precision == "double"
         self._core = _aspic.Simulation(scene._core, backend, doubles, threads)
+        self._warn()
 
     # What computes.
 
@@ -96,6 +101,7 @@ class Simulation(Replayable):
         if steps < 0:
             raise UsageError(f"a number of steps is 0 or more, not {steps}")
         found = self._core.advance(steps)
+        self._warn()
         if found:
             raise diverged(found)
 
@@ -122,6 +128,7 @@ class Simulation(Replayable):
         _check_interval(every)
         recorder = Recorder(self, record)
         found = self._sample(count, every, recorder.take)
+        self._warn()
         if found:
             error = diverged(found)
             error.trajectory = recorder.trajectory()
@@ -163,6 +170,7 @@ class Simulation(Replayable):
                 found = self._sample(count, every, recorder.take)
             finally:
                 recorder.trajectory().export(path, overwrite)
+        self._warn()
         if found:
             raise diverged(found)
 
@@ -268,6 +276,7 @@ class Simulation(Replayable):
         if width < 1 or height < 1:
             raise UsageError(f"a picture has at least 1 × 1 pixels, not {width} × {height}")
         found = self._core.film(os.fspath(path), count, fps, speed, width, height, text, overwrite)
+        self._warn()
         if found:
             raise diverged(found)
 
@@ -292,6 +301,7 @@ class Simulation(Replayable):
         count = self._steps_of(duration, steps)
         _check_pace(fps, speed)
         found = self._core.page(os.fspath(path), count, fps, speed, live, overwrite)
+        self._warn()
         if found:
             raise diverged(found)
 
@@ -300,6 +310,10 @@ class Simulation(Replayable):
         return self.scene.view()
 
     # Parts.
+
+    def _warn(self) -> None:
+        for text in self._core.warnings():
+            warnings.warn(text, OverlapWarning, stacklevel=3)
 
     def _ipython_key_completions_(self) -> list[str]:
         return [*self.bodies, *(ball.name for ball in self.balls)]

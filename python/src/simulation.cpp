@@ -42,6 +42,8 @@ Simulation::Simulation(Scene scene, const std::string& backend, std::optional<bo
   const nb::gil_scoped_release others;
   model_ = take(make_model(scene_.model));
   backend_ = take(make_backend(choice_of(backend, doubles, threads), model_));
+  overlaps_.emplace(scene_.model, *model_);
+  if (std::string found = overlaps_->at_start(); !found.empty()) warnings_.push_back(std::move(found));
 }
 
 void Simulation::refuse_while_viewed() const {
@@ -97,12 +99,28 @@ std::optional<Divergence> Simulation::advance_alone(std::uint64_t steps) {
   return divergence;
 }
 
+void Simulation::look_alone(std::uint64_t before) {
+  if (step_ < overlaps_->next_step(before)) return;
+  std::string found = overlaps_->look(take(backend_.solver->state()));
+  if (!found.empty()) warnings_.push_back(std::move(found));
+}
+
+std::vector<std::string> Simulation::warnings() {
+  return alone([&] { return std::exchange(warnings_, {}); });
+}
+
 std::optional<Divergence> Simulation::advance(std::uint64_t steps) {
   Chunk chunk;
   while (steps > 0) {
-    const std::uint64_t count = std::min(chunk.size(), steps);
+    std::uint64_t count = 0;
     const auto begin = Clock::now();
-    const auto divergence = alone([&] { return advance_alone(count); });
+    const auto divergence = alone([&] {
+      count = std::min({chunk.size(), steps, steps_to_look()});
+      const std::uint64_t before = step_;
+      const auto diverged = advance_alone(count);
+      look_alone(before);
+      return diverged;
+    });
     if (divergence) return divergence;
     steps -= count;
     chunk.took(count, seconds_since(begin));
@@ -143,9 +161,11 @@ Result<std::optional<Divergence>> Simulation::advance_visiting(std::uint64_t las
   while (true) {
     if (const Status visited = visit(); !visited) return visited.error();
     if (step_ == last || divergence || stopped) return divergence;
-    const std::uint64_t count = std::min({next_step() - step_, last - step_, chunk.size()});
+    const std::uint64_t count = std::min({next_step() - step_, last - step_, chunk.size(), steps_to_look()});
+    const std::uint64_t before = step_;
     const auto begin = Clock::now();
     divergence = advance_alone(count);
+    look_alone(before);
     chunk.took(count, seconds_since(begin));
     stopped = signalled();
   }
@@ -229,6 +249,9 @@ void Simulation::update(const std::vector<std::string>& overrides) {
     painter_.reset();
     scene_ = std::move(changed);
     model_ = model;
+    OverlapWatch watch(scene_.model, *model_, false);
+    watch.knows_what(*overlaps_);
+    overlaps_ = std::move(watch);
   });
 }
 

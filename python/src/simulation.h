@@ -96,6 +96,9 @@ class Simulation {
   /// The first step whose states differ, of so many; both advance until there.
   std::optional<std::uint64_t> compare(Simulation& other, std::uint64_t steps);
 
+  /// What there was to warn of since the last call: bodies within each other.
+  std::vector<std::string> warnings();
+
   std::vector<std::byte> picture(const std::vector<std::string>& view, const PictureSize& size, bool text);
   /// Another model of the same topology.
   void update(const std::vector<std::string>& overrides);
@@ -119,6 +122,9 @@ class Simulation {
   void refuse_while_viewed() const;
   RunFacts facts_alone() const;
   std::optional<Divergence> advance_alone(std::uint64_t steps);
+  /// Steps to the next look at bodies that may be within each other, and the look where it is due.
+  std::uint64_t steps_to_look() const { return overlaps_->next_step(step_) - step_; }
+  void look_alone(std::uint64_t before);
   /// Steps to `last`, with visit() at the steps that next_step() names, until a divergence or a signal.
   template <class Next, class Visit>
   Result<std::optional<Divergence>> advance_visiting(std::uint64_t last, const Next& next_step,
@@ -132,6 +138,8 @@ class Simulation {
   Backend backend_;
   InputLog log_;
   std::uint64_t step_ = 0;
+  std::optional<OverlapWatch> overlaps_;  // of model_
+  std::vector<std::string> warnings_;     // not told yet
   std::atomic<int> views_ = 0;
   std::unique_ptr<StillPainter> painter_;  // after backend_, which it draws from
 };

@@ -100,6 +100,7 @@ void bind_simulation(nb::module_& module) {
       .def(
           "advance", [](Simulation& s, std::uint64_t steps) { return told(s.advance(steps)); },
           nb::arg("steps"), "Steps; what diverged.")
+      .def("warnings", &Simulation::warnings, "Sentences, each told once.")
       .def("compare", &Simulation::compare, nb::arg("other"), nb::arg("steps"),
            "The first step that differs.")
       .def("view", &view, nb::arg("field"), "A field in the solver's memory; None on a device.")

@@ -1,15 +1,15 @@
 #include "analysis/stability.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "analysis/amplification.h"
 #include "analysis/spectrum.h"
+#include "analysis/touch_facts.h"
 #include "model/springs.h"
 
 namespace aspic {
@@ -155,29 +155,37 @@ StabilityLimit dense_limit(BodyAnalysis& analysis, Integrator integrator) {
   return limit;
 }
 
+/// Bounds on all (κ, γ) of a body: largest values, and ratios γ/κ [s].
+struct ModeBounds {
+  double kappa_max, gamma_max, smallest_ratio, largest_ratio;
+};
+
 /// The minimum over every (κ, γ) with κ ≤ κ_max, γ ≤ γ_max and γ/κ between the springs' own ratios: for an
 /// eigenvector u these are u*Ku and u*Cu, sums over springs whose terms each keep the spring's ratio.
-StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
-  const double kappa_max = analysis.kappa_max().value;
-  const double gamma_max = analysis.gamma_max().value;
-  const LinearisedBody& body = analysis.body();
+StabilityLimit bounded_limit(const ModeBounds& body, WorkBudget& work, Integrator integrator) {
   StabilityLimit least = {infinity, false};
   // Without stiffness there is no ratio to it: κ = 0 represents every γ.
   const auto gamma_of = [&](double ratio, double kappa) {
-    return kappa > 0.0 ? std::min(ratio * kappa, gamma_max) : 0.0;
+    return kappa > 0.0 ? std::min(ratio * kappa, body.gamma_max) : 0.0;
   };
   const auto visit = [&](double kappa) {
-    const double from = gamma_of(body.smallest_ratio(), kappa), to = gamma_of(body.largest_ratio(), kappa);
+    const double from = gamma_of(body.smallest_ratio, kappa), to = gamma_of(body.largest_ratio, kappa);
     constexpr int steps = 40;
     for (int i = 0; i <= steps; ++i) {
       least = smaller(least, of_mode(integrator, kappa, from + (to - from) * i / steps));
     }
   };
-  scan_unit_interval(60, [&](double share) { visit(share * kappa_max); });
-  analysis.work().spend(std::uint64_t{120} * 41 * work_of_mode);
-  least = smaller(least, of_mode(integrator, 0.0, gamma_max));
+  scan_unit_interval(60, [&](double share) { visit(share * body.kappa_max); });
+  work.spend(std::uint64_t{120} * 41 * work_of_mode);
+  least = smaller(least, of_mode(integrator, 0.0, body.gamma_max));
   least.exact = false;
   return least;
+}
+
+ModeBounds bounds_of(BodyAnalysis& analysis) {
+  const LinearisedBody& body = analysis.body();
+  return {analysis.kappa_max().value, analysis.gamma_max().value, body.smallest_ratio(),
+          body.largest_ratio()};
 }
 
 StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
@@ -189,7 +197,7 @@ StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   if (body.proportional()) return proportional_limit(analysis, integrator);
   if (integrator == Integrator::symplectic_euler) return symplectic_limit(analysis);
   if (analysis.small() && !row.staged()->mode_limit) return dense_limit(analysis, integrator);
-  return bounded_limit(analysis, integrator);
+  return bounded_limit(bounds_of(analysis), analysis.work(), integrator);
 }
 
 /// The limit where actuators have made rest lengths r as short as they do and the body is still as it was at
@@ -224,6 +232,97 @@ bool affordable(const WorkBudget& work, std::size_t springs) {
 }
 
 }  // namespace
+
+namespace {
+
+/// What contact adds to a body's largest κ [1/s²] and γ [1/s].
+struct Added {
+  double kappa = 0.0, gamma = 0.0;
+  void raise(const Added& other) {
+    kappa = std::max(kappa, other.kappa);
+    gamma = std::max(gamma, other.gamma);
+  }
+  friend bool operator==(const Added&, const Added&) = default;
+};
+
+/// By the first particle of each body that may touch another, or itself.
+std::map<std::uint32_t, Added> added_by_contact(const Model& model, Meeting meeting) {
+  const double share = meeting == Meeting::edges ? 12.0 : 4.0;
+  const TouchFacts facts = touch_facts(model);
+  std::map<std::uint32_t, Added> added;
+  for (const TouchPairing& pairing : facts.pairings)
+    for (const std::size_t kind : {pairing.a, pairing.b})
+      for (const std::uint32_t b : facts.kinds[kind].bodies) {
+        const double w = share / facts.kinds[kind].body.mass;
+        added[model.bodies[b].first_particle].raise({w * pairing.pair.stiffness, w * pairing.pair.damping});
+      }
+  return added;
+}
+
+/// Whether two bodies have the same springs and particles, so that one of them says all of both.
+bool same_springs(const Model& model, const Body& a, const Body& b) {
+  const auto same_class = [](const SpringClass& p, const SpringClass& q) {
+    return p.stiffness == q.stiffness && p.damping == q.damping && p.rest_length == q.rest_length;
+  };
+  if (!a.box() || !b.box() || a.lattice != b.lattice || a.class_count != b.class_count) return false;
+  for (std::uint32_t c = 0; c < a.class_count; ++c)
+    if (!same_class(model.spring_classes[a.first_class + c], model.spring_classes[b.first_class + c]))
+      return false;
+  for (std::uint32_t i = 0; i < a.particle_count; ++i)
+    if (model.inverse_mass[a.first_particle + i] != model.inverse_mass[b.first_particle + i]) return false;
+  return true;
+}
+
+StabilityLimit touching_limit(BodyAnalysis& analysis, const Added& added, Integrator integrator) {
+  const StabilityLimit free = body_limit(analysis, integrator);
+  if (!(added.kappa > 0.0) || row_of(integrator).traits.stable_at_any_step || !free.step || *free.step == 0.0)
+    return free;
+  ModeBounds bounds = bounds_of(analysis);
+  const double ratio = added.gamma / added.kappa;
+  bounds.kappa_max += added.kappa;
+  bounds.gamma_max += added.gamma;
+  bounds.smallest_ratio = std::min(bounds.smallest_ratio, ratio);
+  bounds.largest_ratio = std::max(bounds.largest_ratio, ratio);
+  return smaller(free, bounded_limit(bounds, analysis.work(), integrator));
+}
+
+}  // namespace
+
+std::vector<StabilityLimit> touching_limits(const Model& model, std::span<const Integrator> integrators,
+                                            Meeting meeting, StabilityEffort effort,
+                                            const StabilityWatch& watch) {
+  std::vector<StabilityLimit> limits(integrators.size(), StabilityLimit{infinity, true});
+  const Effort& means = effort == StabilityEffort::quick ? quick : thorough;
+  WorkBudget work(means.evaluations, watch);
+  const std::map<std::uint32_t, Added> added = added_by_contact(model, meeting);
+  LinearisedBody rest;
+  Added rest_added;
+  std::vector<std::pair<const Body*, Added>> looked_at;
+  const auto take = [&](LinearisedBody body, const Added& with) {
+    BodyAnalysis analysis(std::move(body), means, work);
+    for (std::size_t i = 0; i < integrators.size(); ++i)
+      limits[i] = smaller(limits[i], touching_limit(analysis, with, integrators[i]));
+  };
+  for (const auto& [first, count] : runs_of(model)) {
+    const auto found = added.find(first);
+    const Added with = found == added.end() ? Added() : found->second;
+    const auto body = std::ranges::find(model.bodies, first, &Body::first_particle);
+    const auto known = [&](const std::pair<const Body*, Added>& other) {
+      return other.second == with && same_springs(model, *other.first, *body);
+    };
+    if (body != model.bodies.end() && std::ranges::any_of(looked_at, known)) continue;
+    if (body != model.bodies.end()) looked_at.emplace_back(&*body, with);
+    LinearisedBody light(model, first, count, false);
+    if (affordable(work, light.spring_count())) {
+      take(LinearisedBody(model, first, count), with);
+    } else {
+      rest.join(light);
+      rest_added.raise(with);
+    }
+  }
+  if (rest.has_springs()) take(std::move(rest), rest_added);
+  return limits;
+}
 
 std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const Integrator> integrators,
                                              StabilityEffort effort, const StabilityWatch& watch) {
@@ -304,60 +403,6 @@ double largest_stiffness_eigenvalue(const Model& model) {
         largest, body.largest_eigenvalue(1.0, 0.0, thorough.tolerance, thorough.iterations, work).value);
   }
   return largest;
-}
-
-bool exceeds(double timestep, const StabilityLimit& limit) {
-  return !limit.step || timestep > *limit.step;
-}
-
-std::string stability_figure(const StabilityLimit& limit) {
-  if (!limit.step) return limit.exact ? "none" : "none is certain";
-  if (*limit.step == 0.0) return "none is certain";
-  if (std::isinf(*limit.step)) return "any";
-  return fmt::format("{}{:.4g} s", limit.exact ? "" : "at least ", *limit.step);
-}
-
-std::string stability_sentence(Integrator integrator, const StabilityLimit& limit) {
-  if (!limit.step) {
-    return fmt::format(
-        "no step is {}stable for {}, under which undamped springs gain energy at any step; add damping, or "
-        "use symplectic-euler or runge-kutta-4",
-        limit.exact ? "" : "certainly ", name_of(integrator));
-  }
-  if (std::isinf(*limit.step)) return fmt::format("nothing limits the step of {}", name_of(integrator));
-  if (*limit.step == 0.0) {
-    return fmt::format(
-        "no step is certainly stable for {}: the springs are stiffer for their masses than double precision "
-        "can express",
-        name_of(integrator));
-  }
-  return fmt::format("the largest stable one for {} is {}{}", name_of(integrator),
-                     limit.exact ? "estimated at " : "", stability_figure(limit));
-}
-
-std::string divergence_sentence(double timestep, Integrator integrator, const StabilityLimit& limit) {
-  const std::string now = fmt::format("The time step is {:.4g} s", timestep);
-  if (exceeds(timestep, limit)) return fmt::format("{}; {}.", now, stability_sentence(integrator, limit));
-  const std::string known =
-      std::isinf(*limit.step)
-          ? fmt::format("small motions are stable under {} at any step", name_of(integrator))
-          : fmt::format("small motions are stable under {} up to {}", name_of(integrator),
-                        stability_figure(limit));
-  return fmt::format("{}, and {}; a hit or a contact needed a smaller one. Try {:.4g} s.", now, known,
-                     0.5 * timestep);
-}
-
-std::optional<double> step_to_try(double timestep, const StabilityLimit& limit) {
-  if (!limit.step || !(*limit.step > 0.0)) return std::nullopt;
-  if (!exceeds(timestep, limit)) return 0.5 * timestep;
-  // Two digits below: an estimate is not trusted to its last one.
-  const double most = 0.95 * *limit.step, unit = std::pow(10.0, std::floor(std::log10(most)) - 1.0);
-  return std::floor(most / unit) * unit;
-}
-
-std::string unstable_sentence(double timestep, Integrator integrator, const StabilityLimit& limit) {
-  return fmt::format("the time step {:.4g} s {} stable: {}.", timestep, limit.exact ? "is not" : "may not be",
-                     stability_sentence(integrator, limit));
 }
 
 }  // namespace aspic

@@ -3,10 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <string>
+#include <utility>
 
 #include "analysis/stability.h"
 
 namespace aspic::app {
+namespace {
+
+/// With a capital letter.
+std::string sentence(std::string words) {
+  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+  return words;
+}
+
+}  // namespace
 
 void RunControl::toggle() {
   if (simulation_.divergence())
@@ -99,6 +111,30 @@ void RunControl::watch_divergence() {
                   body_text(*divergence), fault_text(*divergence),
                   divergence_sentence(s.timestep, s.integrator, *stable_)),
       Until::divergence_is_over);
+}
+
+void RunControl::watch_overlaps() {
+  constexpr double seconds = 15.0;  // that it is shown
+  // While a change is on its way the scene is ahead of the model.
+  if (scene_.pending() || simulation_.rebuild().changing() || simulation_.divergence()) return;
+  const std::uint64_t number = simulation_.present().model_number(), step = simulation_.snapshot().step;
+  if (!overlaps_ || overlaps_model_ != number) {
+    const bool first = !overlaps_;
+    OverlapWatch watch(scene_.scene().model, simulation_.model(), step == 0);
+    // A constant that changes on the way is no news of what overlaps.
+    if (!first && step > 0) watch.knows_what(*overlaps_);
+    overlaps_ = std::move(watch);
+    overlaps_model_ = number;
+    next_look_ = overlaps_->next_step(step);
+    if (const std::string found = overlaps_->at_start(); !found.empty())
+      messages_.info(sentence(found), seconds);
+  }
+  const std::uint64_t after = overlaps_->next_step(step);
+  const bool due = step >= next_look_;
+  next_look_ = due ? after : std::min(next_look_, after);  // it may go back in time
+  if (!due) return;
+  if (const std::string found = overlaps_->look(simulation_.snapshot()); !found.empty())
+    messages_.info(sentence(found), seconds);
 }
 
 }  // namespace aspic::app

@@ -1,10 +1,12 @@
 #pragma once
 // Start, pause, step, backends, and the way back in time; with messages of what became of it.
+#include <cstdint>
 #include <optional>
 
 #include "analysis/stability.h"
 #include "app/messages.h"
 #include "app/scene_control.h"
+#include "aspic/run.h"
 #include "playback/simulation.h"
 
 namespace aspic::app {
@@ -35,6 +37,8 @@ class RunControl {
 
   /// Once for each picture: reports a new divergence.
   void watch_divergence();
+  /// Likewise: says which bodies overlap when a run starts, and once of each pair that it is too deep.
+  void watch_overlaps();
   /// A smaller time step [s] than that which diverged, once a divergence was reported: step_to_try().
   std::optional<double> offered_step() const;
 
@@ -43,6 +47,8 @@ class RunControl {
   SceneControl& scene_;
   Messages& messages_;
   std::optional<StabilityLimit> stable_;
+  std::optional<OverlapWatch> overlaps_;  // of the model with that number
+  std::uint64_t overlaps_model_ = 0, next_look_ = 0;
 };
 
 }  // namespace aspic::app

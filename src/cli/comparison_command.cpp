@@ -37,6 +37,7 @@ struct HeadlessVariant {
   std::uint64_t last_step = 0;
   std::string name;  ///< "run 2 (integrator implicit Euler)"
   Backend backend;
+  std::optional<OverlapWatch> overlaps;
   std::optional<HeadlessRun> headless;
   std::optional<Outcome> outcome;
 };
@@ -122,6 +123,10 @@ Status prepare(HeadlessVariants& variants, const std::vector<Difference>& differ
       m.name += fmt::format("{}{} {}", &line == &label.front() ? " (" : ", ", line.label, line.value);
     m.name += ")";
     warn_if_unstable(*m.model, interrupt, m.name + ": ");
+    m.overlaps.emplace(m.run.scene.model, *m.model);
+    if (const std::string found = m.overlaps->at_start(); !found.empty())
+      print_warning(m.name + ": " + found);
+    m.headless->set_watch(*m.overlaps, m.name + ": ");
   }
   return {};
 }

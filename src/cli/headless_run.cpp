@@ -50,6 +50,10 @@ Status HeadlessRun::sample() {
   return {};
 }
 
+void HeadlessRun::look(const State& state) const {
+  if (const std::string found = watch_->look(state); !found.empty()) print_warning(watched_ + found);
+}
+
 Status HeadlessRun::begin() {
   ASPIC_CHECK(solver_.set_inputs(inputs_.at(step_)));
   return sample();
@@ -60,7 +64,8 @@ Status HeadlessRun::advance_to(std::uint64_t step, const InterruptGuard& interru
   const auto started = Clock::now();
   while (step_ < step && !divergence_ && !(interrupted_ = interrupt.interrupted())) {
     const std::uint64_t wanted = files_.next_step(step_);
-    const std::uint64_t count = std::min({batch_.next(), step - step_, wanted - step_});
+    const std::uint64_t watched = watch_ ? watch_->next_step(step_) : step;
+    const std::uint64_t count = std::min({batch_.next(), step - step_, wanted - step_, watched - step_});
     const auto before = Clock::now();
     ASPIC_TRY(divergence_, aspic::advance(solver_, inputs_, step_, count));
     if (divergence_) {
@@ -69,6 +74,10 @@ Status HeadlessRun::advance_to(std::uint64_t step, const InterruptGuard& interru
     }
     step_ += count;
     if (step_ == wanted) ASPIC_CHECK(sample());
+    if (watch_ && step_ == watched) {
+      ASPIC_TRY(const auto state, solver_.state());
+      look(state);
+    }
     batch_.took(count, seconds_since(before));
     if (did) did(step_);
   }
@@ -89,6 +98,7 @@ Result<Outcome> HeadlessRun::outcome(std::uint64_t last_step) {
     return fail(ErrorCode::diverged, "{} of step {} is not a finite number; the outputs were not completed.",
                 *bad, outcome.state.step);
   }
+  if (watch_) look(outcome.state);
   outcome.solves = solver_.solve_statistics();
   return outcome;
 }

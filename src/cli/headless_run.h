@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "aspic/run.h"
 #include "aspic/solver.h"
 #include "aspic/state.h"
 #include "base/result.h"
@@ -81,6 +83,13 @@ class HeadlessRun {
         step_(first_step),
         inputs_(std::move(inputs)) {}
 
+  /// Bodies that come to be within each other are warned of, where `of` begins the sentence. The watch must
+  /// outlive it.
+  void set_watch(OverlapWatch& watch, std::string of = "") {
+    watch_ = &watch;
+    watched_ = std::move(of);
+  }
+
   /// Hands the first state to the files.
   Status begin();
   /// Advances to `step` ≥ step(); less far after a divergence, a step() of which is the last good one, and an
@@ -104,6 +113,7 @@ class HeadlessRun {
 
  private:
   Status sample();
+  void look(const State& state) const;
 
   Solver& solver_;
   RunFiles& files_;
@@ -115,6 +125,8 @@ class HeadlessRun {
   double seconds_ = 0.0;
   BatchSize batch_;
   Losses losses_;
+  OverlapWatch* watch_ = nullptr;
+  std::string watched_;
 };
 
 }  // namespace aspic::cli

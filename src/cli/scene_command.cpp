@@ -13,6 +13,7 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/scene_contact.h"
 #include "io/program.h"
 #include "model/counts.h"
 #include "model/springs.h"
@@ -212,12 +213,21 @@ Status execute(const SceneCheckOptions& options) {
   const Integrator own = model.simulation.integrator;
   const double timestep = model.simulation.timestep;
   std::vector<StabilityLimit> limits;
+  const TouchFacts touching = touch_facts(model);
+  TouchingLimits touching_steps;
   {
     ProgressBar bar(100, "stable steps: part");
-    limits = stability_limits(model, explicit_integrators, StabilityEffort::thorough, [&](double share) {
+    const auto watch = [&](double share) {
       bar.update(static_cast<std::uint64_t>(100.0 * share));
       return !interrupt.interrupted();
-    });
+    };
+    limits = stability_limits(model, explicit_integrators, StabilityEffort::thorough, watch);
+    if (!touching.pairings.empty()) {
+      const auto while_touching = [&](Meeting meeting) {
+        return touching_limits(model, explicit_integrators, meeting, StabilityEffort::thorough, watch);
+      };
+      touching_steps = {while_touching(Meeting::faces), while_touching(Meeting::edges)};
+    }
   }
   if (interrupt.interrupted())
     return Error{ErrorCode::interrupted,
@@ -252,6 +262,7 @@ Status execute(const SceneCheckOptions& options) {
                                     {"integrator", name_of(own)},
                                     {"timestep", timestep},
                                     {"stable_steps", steps},
+                                    {"contact", contact_json(scene, model, touching, touching_steps)},
                                     {"largest_cubes", capacity ? largest : Json()}})));
   } else {
     std::string text = fmt::format("scene        {}\n", scene.name);
@@ -275,10 +286,15 @@ Status execute(const SceneCheckOptions& options) {
                             fmt::format("{}^3", cube.particles_per_edge), limit_text(cube));
     }
     for (std::size_t i = 0; i < limits.size(); ++i) {
-      text += fmt::format("stable step  {:<24} {:>10}\n", name_of(explicit_integrators[i]),
+      text += fmt::format("stable step  {:<24} {:>10}", name_of(explicit_integrators[i]),
                           stability_figure(limits[i]));
+      if (!touching_steps.faces.empty())
+        text += fmt::format("; in contact {}, edges on edges {}", stability_figure(touching_steps.faces[i]),
+                            stability_figure(touching_steps.edges[i]));
+      text += "\n";
     }
     text += fmt::format("time step    {:<24} {:>8} s\n", name_of(own), timestep);
+    text += contact_text(scene, model, touching);
     ASPIC_CHECK(print_text(text));
   }
   const auto at = std::find(explicit_integrators.begin(), explicit_integrators.end(), own);
@@ -288,6 +304,8 @@ Status execute(const SceneCheckOptions& options) {
       print_warning(unstable_sentence(timestep, own, limit));
     }
   }
+  for (const std::string& warning : contact_warnings(scene, model, touching, touching_steps))
+    print_warning(warning);
   return {};
 }
 

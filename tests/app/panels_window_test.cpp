@@ -509,6 +509,18 @@ TEST_F(Panels, WhatIsAddedSurvivesItsLauncher) {
   EXPECT_FALSE(simulation().divergence().has_value()) << "at " << simulation().time() << " s";
 }
 
+// What overlaps at the start is named; a run of bodies that do not says nothing.
+TEST_F(Panels, BodiesThatOverlapAreNamed) {
+  open("cubes-stack", {"cube[1].position=[0,5.8,0]"}, "reference");
+  frames(2);
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_THAT(app().messages.notice()->text, testing::AllOf(testing::HasSubstr("overlap at the start"),
+                                                            testing::HasSubstr("cube[0] and cube[1]")));
+  open("cubes-stack", {}, "reference");
+  frames(2);
+  EXPECT_TRUE(!app().messages.notice() || app().messages.notice()->text.find("overlap") == std::string::npos);
+}
+
 TEST_F(Panels, ASecondBodyInABowlStandsAboveTheFirst) {
   open("cube-bowl", {"cube[0].particles-per-edge=3", "cube[0].edge-length=2", "cube[0].position=[6,7.5,1]"},
        "reference", only("Bodies"));

@@ -163,8 +163,8 @@ TEST(PublicHeaders, AreFewAndIncludeTheStandardLibraryAndEachOther) {
     EXPECT_THAT(not_public(text), ::testing::IsEmpty()) << entry.path();
   }
   // Room for what every front end says of an error and for the threads of every class; 115 are batch.h, 90
-  // sweep.h.
-  EXPECT_LE(lines, 2000u) << "a user reads them all";
+  // sweep.h, 25 what watches bodies that come to be within each other, 70 actuators.
+  EXPECT_LE(lines, 2100u) << "a user reads them all";
   names.insert("version.h");  // generated
   const std::string all = contents(root / "include/aspic/aspic.h");
   names.erase("aspic.h");

@@ -1,0 +1,209 @@
+#include "analysis/body_overlap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "cpu_reference/body_contact.h"
+
+namespace aspic {
+namespace {
+
+using Vector = reference::Vector<double>;
+
+constexpr double no_bound = std::numeric_limits<double>::infinity();
+
+/// How many triangles have one box.
+constexpr std::uint32_t block_size = 32;
+/// Of how many points of a pair the depth is found; of more, every second, third …
+constexpr std::size_t most_measured = 200;
+
+/// A closed surface in space.
+class Skin {
+ public:
+  Skin(std::span<const TouchTriangle> triangles, const State& state) {
+    for (const TouchTriangle& t : triangles) {
+      const auto x = [&](std::size_t n) { return reference::rounded<double>(state.position[t.corner[n]]); };
+      faces_.push_back({x(0), x(1), x(2)});
+    }
+    for (std::size_t first = 0; first < faces_.size(); first += block_size) {
+      Block block = {first, std::min(first + block_size, faces_.size()), Vector::Constant(no_bound),
+                     Vector::Constant(-no_bound)};
+      for (std::size_t n = block.first; n < block.end; ++n) {
+        for (const Vector& corner : faces_[n]) {
+          block.low = block.low.cwiseMin(corner);
+          block.high = block.high.cwiseMax(corner);
+        }
+      }
+      blocks_.push_back(block);
+    }
+  }
+
+  /// Distance of P from the surface where it is less than `most` [m], else that.
+  double distance(const Vector& P, double most) const {
+    for (const Block& block : blocks_) {
+      const Vector away = (block.low - P).cwiseMax(P - block.high).cwiseMax(0.0);
+      if (away.squaredNorm() >= most * most) continue;
+      for (std::size_t n = block.first; n < block.end; ++n) {
+        const auto& [A, B, C] = faces_[n];
+        const auto at = reference::nearest_place<double>(P, A, B, C);
+        most = std::min(most, (((P - A) - at.b * (B - A)) - at.c * (C - A)).norm());
+      }
+    }
+    return most;
+  }
+
+  /// Whether a ray along x crosses the surface an odd number of times.
+  bool holds(const Vector& P) const {
+    bool within = false;
+    for (const Block& block : blocks_) {
+      if (block.high.x() < P.x() || block.low.y() > P.y() || block.high.y() < P.y() ||
+          block.low.z() > P.z() || block.high.z() < P.z())
+        continue;
+      for (std::size_t n = block.first; n < block.end; ++n) within = within != crosses(faces_[n], P);
+    }
+    return within;
+  }
+
+ private:
+  using Corners = std::array<Vector, 3>;
+  struct Block {
+    std::size_t first, end;
+    Vector low, high;
+  };
+
+  static bool crosses(const Corners& face, const Vector& P) {
+    // Twice the areas that P makes with the sides, seen along x; all of one sign: the ray meets the triangle.
+    std::array<double, 3> area;
+    for (std::size_t n = 0; n < 3; ++n) {
+      const Vector a = face[(n + 1) % 3] - P, b = face[(n + 2) % 3] - P;
+      area[n] = a.y() * b.z() - a.z() * b.y();
+    }
+    const bool positive = area[0] > 0.0 && area[1] > 0.0 && area[2] > 0.0,
+               negative = area[0] < 0.0 && area[1] < 0.0 && area[2] < 0.0;
+    if (!positive && !negative) return false;
+    const double x = (area[0] * face[0].x() + area[1] * face[1].x() + area[2] * face[2].x()) /
+                     (area[0] + area[1] + area[2]);
+    return x > P.x();
+  }
+
+  std::vector<Corners> faces_;
+  std::vector<Block> blocks_;
+};
+
+BodyOverlap& pair_of(std::vector<BodyOverlap>& overlaps, std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t low = std::min(a, b), high = std::max(a, b);
+  for (BodyOverlap& each : overlaps)
+    if (each.a == low && each.b == high) return each;
+  return overlaps.emplace_back(BodyOverlap{low, high, 0.0, 0.0, 0.0});
+}
+
+}  // namespace
+
+DeepPoints::DeepPoints(const Model& model) : contact_(model.contact) {
+  if (model.contact.bodies && bodies_touch(model)) surfaces_ = touch_surfaces(model);
+}
+
+DeepPoints::Boxes DeepPoints::boxes_of(const State& state) const {
+  Boxes boxes;
+  for (const TouchBody& body : surfaces_.bodies) {
+    Box& box = boxes.emplace_back(Box{{no_bound, no_bound, no_bound}, {-no_bound, -no_bound, -no_bound}});
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.surface_particles; ++p) {
+      const Vec3& x = state.position[surfaces_.points[p].carrier[0]];
+      for (int axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], x[axis]);
+        box.high[axis] = std::max(box.high[axis], x[axis]);
+      }
+    }
+  }
+  return boxes;
+}
+
+double DeepPoints::depth(std::uint32_t a, std::uint32_t b) const {
+  return touch_pair(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false).depth;
+}
+
+/// Whether a point of a may be deeper than D in b: what is deeper than that is as deep in the box of b.
+bool DeepPoints::near(const Boxes& boxes, std::uint32_t a, std::uint32_t b) const {
+  if (a == b || !surfaces_.bodies[b].closed) return false;
+  const double D = depth(a, b);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(boxes[a].low[axis] <= boxes[b].high[axis] - D && boxes[a].high[axis] >= boxes[b].low[axis] + D))
+      return false;
+  }
+  return true;
+}
+
+void DeepPoints::take(const State& state, const Boxes& boxes, std::uint32_t a, std::uint32_t b,
+                      std::vector<BodyOverlap>& found) const {
+  const TouchBody &points = surfaces_.bodies[a], &faces = surfaces_.bodies[b];
+  const double D = depth(a, b);
+  std::vector<Vector> candidates;
+  for (std::uint32_t p = points.first_point; p < points.first_point + points.surface_particles; ++p) {
+    const Vec3& x = state.position[surfaces_.points[p].carrier[0]];
+    bool in = true;
+    for (int axis = 0; axis < 3; ++axis)
+      in = in && x[axis] >= boxes[b].low[axis] + D && x[axis] <= boxes[b].high[axis] - D;
+    if (in) candidates.push_back(reference::rounded<double>(x));
+  }
+  if (candidates.empty()) return;
+  const Skin skin(std::span(surfaces_.triangles).subspan(faces.first_triangle, faces.triangle_count), state);
+  // Within D of such a point there is no surface: aside, the ray meets no edges of a lattice that lies along
+  // it.
+  const Vector aside = D * Vector(0.0, 0.2173, 0.1339);
+  std::vector<Vector> deep;
+  for (const Vector& P : candidates)
+    if (skin.distance(P, D) >= D && skin.holds(P + aside)) deep.push_back(P);
+  if (deep.empty()) return;
+  BodyOverlap& overlap = pair_of(found, points.body, faces.body);
+  overlap.most = D;
+  const std::size_t stride = (deep.size() + most_measured - 1) / most_measured;
+  for (std::size_t n = 0; n < deep.size(); n += stride)
+    overlap.deepest = std::max(overlap.deepest, skin.distance(deep[n], no_bound));
+}
+
+std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state) {
+  if (!model.contact.bodies || !bodies_touch(model)) return {};
+  const TouchSurfaces surfaces = touch_surfaces(model);
+  std::vector<BodyOverlap> overlaps =
+      DeepPoints(model).find(state, [](std::uint32_t, std::uint32_t) { return false; });
+  using Contact = reference::BodyContact<double>;
+  Contact contact(model);
+  const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
+  const Contact::Particles at = {reference::components(x.data()), reference::components(v.data()), 3};
+  if (contact.begin_step(state.step, at)) contact.find(at);
+  const auto body_at = [&](std::uint32_t number, std::uint32_t TouchBody::*first) -> const TouchBody& {
+    return *(std::ranges::upper_bound(surfaces.bodies, number, {}, first) - 1);
+  };
+  std::map<std::uint32_t, std::unique_ptr<Skin>> skins;  // by body
+  for (const auto& touch : contact.touches()) {
+    const TouchBody &points = body_at(touch.point, &TouchBody::first_point),
+                    &faces = body_at(touch.triangle, &TouchBody::first_triangle);
+    if (points.body == faces.body) continue;
+    const TouchPair pair = touch_pair(model.contact, points, faces, false);
+    BodyOverlap& overlap = pair_of(overlaps, points.body, faces.body);
+    overlap.most = std::max(overlap.most, pair.depth);
+    if (touch.d < 0.0) {
+      // The rule's face is the nearest of those that turn to the point; another may be nearer.
+      auto& skin = skins[faces.body];
+      if (!skin)
+        skin = std::make_unique<Skin>(
+            std::span(surfaces.triangles).subspan(faces.first_triangle, faces.triangle_count), state);
+      const Vector P = touch.carriers == 1 ? at.position(touch.particle[0])
+                                           : Vector(touch.weight[0] * at.position(touch.particle[0]) +
+                                                    touch.weight[1] * at.position(touch.particle[1]));
+      overlap.deepest = std::max(overlap.deepest, skin->distance(P, -touch.d));
+    }
+    const double near = std::max(pair.reach - touch.d, 0.0);
+    overlap.energy += 0.5 * pair.stiffness * near * near;
+  }
+  // What touches without being within each other, but for rounding, is left out.
+  std::erase_if(overlaps, [](const BodyOverlap& each) { return !(each.deepest > 1e-6 * each.most); });
+  std::ranges::sort(overlaps, {}, [](const BodyOverlap& each) { return std::pair(each.a, each.b); });
+  return overlaps;
+}
+
+}  // namespace aspic

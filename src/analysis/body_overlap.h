@@ -1,0 +1,58 @@
+#pragma once
+// Bodies that are within each other at a state: what a start eases apart, and what is so deep that nothing
+// pushes it out (docs/contact.md).
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "model/model.h"
+#include "model/touch_surface.h"
+
+namespace aspic {
+
+/// Two bodies of which one has points within the other.
+struct BodyOverlap {
+  std::uint32_t a = 0, b = 0;  ///< indices in Model::bodies, a < b
+  double deepest = 0.0;        ///< of these points, below the surface [m]
+  double most = 0.0;           ///< D, up to which they are pushed [m]
+  double energy = 0.0;         ///< of all pushes between the two, were they not eased apart [J]
+  bool locked() const { return deepest > most; }
+};
+
+/// Looks for points deeper than D within another body. Costs a look at a box for each body and, of bodies
+/// whose boxes are so deep in each other, at the triangles near such points.
+class DeepPoints {
+ public:
+  explicit DeepPoints(const Model& model);
+  /// A pair for which this returns true is left out.
+  template <class Known>
+  std::vector<BodyOverlap> find(const State& state, const Known& known) const {
+    std::vector<BodyOverlap> found;
+    const Boxes boxes = boxes_of(state);
+    for (std::uint32_t a = 0; a < surfaces_.bodies.size(); ++a)
+      for (std::uint32_t b = 0; b < surfaces_.bodies.size(); ++b)
+        if (near(boxes, a, b) && !known(surfaces_.bodies[a].body, surfaces_.bodies[b].body))
+          take(state, boxes, a, b, found);
+    return found;
+  }
+
+ private:
+  struct Box {
+    Vec3 low, high;
+  };
+  using Boxes = std::vector<Box>;
+  Boxes boxes_of(const State& state) const;
+  bool near(const Boxes& boxes, std::uint32_t a, std::uint32_t b) const;
+  void take(const State& state, const Boxes& boxes, std::uint32_t a, std::uint32_t b,
+            std::vector<BodyOverlap>& found) const;
+  double depth(std::uint32_t a, std::uint32_t b) const;
+
+  TouchSurfaces surfaces_;
+  ContactSettings contact_;
+};
+
+/// Every pair of which one has points within the other at a state, with what is deeper than D; ascending.
+/// Nothing where the model's bodies do not touch each other.
+std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state);
+
+}  // namespace aspic

@@ -1,0 +1,78 @@
+#include "analysis/touch_facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "model/integrator.h"
+
+namespace aspic {
+namespace {
+
+/// c₀ = s·√(E·s/m), where E·s is κ.
+double sound_of(const TouchBody& body) {
+  return body.spacing * std::sqrt(body.stiffness / body.mass);
+}
+
+/// 0.8 of (7.84·c₀²·i²/g)^⅓, with i² = s²(n² − 1)/12 of the narrower of a box's horizontal edges (Greenhill,
+/// 1881: a column that bends under its own weight).
+std::optional<double> stack_of(const Model& model, const Body& body, const TouchBody& touch) {
+  const double g = length(model.simulation.gravity);
+  if (!body.box() || !(g > 0.0)) return std::nullopt;
+  const double n = std::min(body.box()->particles[0], body.box()->particles[2]);
+  const double sound = sound_of(touch), i_squared = touch.spacing * touch.spacing * (n * n - 1.0) / 12.0;
+  return 0.8 * std::cbrt(7.84 * sound * sound * i_squared / g);
+}
+
+TouchPairing pairing_of(const Model& model, const TouchFacts& facts, std::size_t a, std::size_t b,
+                        bool self) {
+  const TouchKind &one = facts.kinds[a], &other = facts.kinds[b];
+  const double h = model.simulation.timestep;
+  TouchPairing made = {a, b, self, touch_pair(model.contact, one.body, other.body, self), 0.0, 0.0, 0.0};
+  // Nothing within an open surface pushes back what has passed its reach.
+  double way = 0.5 * made.pair.spacing;
+  if (!row_of(model.simulation.integrator).staged()) way = 0.3 * made.pair.spacing;
+  for (const auto& [points, faces] : {std::pair(&one, &other), std::pair(&other, &one)}) {
+    const TouchPair pair = touch_pair(model.contact, points->body, faces->body, self);
+    if (!faces->body.closed) way = std::min(way, pair.reach);
+    made.pair.reach = std::min(made.pair.reach, pair.reach);
+  }
+  made.step_speed = way / h;
+  const auto turned_back = [](const TouchKind& kind) { return (kind.damped ? 0.9 : 0.3) * kind.sound; };
+  made.sound_speed = std::min(turned_back(one), turned_back(other));
+  const double omega = std::sqrt(made.pair.stiffness * (1.0 / one.body.mass + 1.0 / other.body.mass));
+  made.least_zeta = 0.5 * h * omega;
+  return made;
+}
+
+}  // namespace
+
+TouchFacts touch_facts(const Model& model) {
+  TouchFacts facts;
+  if (!bodies_touch(model)) return facts;
+  const TouchSurfaces surfaces = touch_surfaces(model);
+  for (const TouchBody& body : surfaces.bodies) {
+    const std::optional<double> stack = stack_of(model, model.bodies[body.body], body);
+    const auto same = [&](const TouchKind& kind) {
+      return kind.body.alike(body) && kind.body.damping == body.damping && kind.stack == stack;
+    };
+    auto kind = std::ranges::find_if(facts.kinds, same);
+    if (kind == facts.kinds.end()) {
+      const double k = body.stiffness / lattice_stiffness_share;
+      facts.kinds.push_back(
+          {{}, body, sound_of(body), body.damping >= 0.9 * std::sqrt(k * body.mass), stack});
+      kind = facts.kinds.end() - 1;
+    }
+    kind->bodies.push_back(body.body);
+  }
+  for (std::size_t a = 0; a < facts.kinds.size(); ++a) {
+    if (model.contact.self) facts.pairings.push_back(pairing_of(model, facts, a, a, true));
+    for (std::size_t b = a; b < facts.kinds.size() && model.contact.bodies; ++b)
+      if (a != b || facts.kinds[a].bodies.size() > 1)
+        facts.pairings.push_back(pairing_of(model, facts, a, b, false));
+  }
+  return facts;
+}
+
+}  // namespace aspic
