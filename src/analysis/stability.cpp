@@ -405,4 +405,12 @@ double largest_stiffness_eigenvalue(const Model& model) {
   return largest;
 }
 
+double usual_timestep(const StabilityLimit& limit, double otherwise) {
+  if (!limit.step || !(*limit.step > 0.0) || !std::isfinite(*limit.step)) return otherwise;
+  const double most = 0.5 * *limit.step, power = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= most) return digit * power;
+  return power;
+}
+
 }  // namespace aspic

@@ -42,6 +42,10 @@ std::string divergence_sentence(double timestep, Integrator integrator, const St
 /// stable.
 std::optional<double> step_to_try(double timestep, const StabilityLimit& limit);
 
+/// The largest step of one digit, 1, 2 or 5, below half the largest stable one [s]; `otherwise` where there
+/// is no limit or no step is stable.
+double usual_timestep(const StabilityLimit& limit, double otherwise);
+
 /// "the time step 0.01 s is not stable: …." or "may not be stable", for a step that exceeds the limit.
 std::string unstable_sentence(double timestep, Integrator integrator, const StabilityLimit& limit);
 

@@ -88,15 +88,6 @@ Status execute(const SceneShowOptions& options) {
 
 namespace {
 
-/// The largest step of one digit, 1, 2 or 5, below half the largest stable one.
-double usual_timestep(const StabilityLimit& limit, double otherwise) {
-  if (!limit.step || !(*limit.step > 0.0)) return otherwise;
-  const double most = 0.5 * *limit.step, power = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= most) return digit * power;
-  return power;
-}
-
 Status import_as_body(const SceneImportOptions& options) {
   MeshImport import = {options.file, options.cells, options.height};
   if (options.up) import.up = *options.up;

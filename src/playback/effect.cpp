@@ -20,7 +20,8 @@ Effect effect_between(const Scene& before, const Scene& after) {
     if (row.list.size(before.model) != row.list.size(after.model)) return Effect::restart;
   }
   Effect effect = Effect::none;
-  if (before.model.terrain.size() != after.model.terrain.size()) effect = Effect::constants;
+  for (const SettingsList& list : settings_lists())
+    if (list.size(before.model) != list.size(after.model)) effect = Effect::constants;
   for (const Parameter& p : parameters()) {
     const std::size_t count = std::min(index_count(p, before), index_count(p, after));
     for (std::size_t i = 0; i < count; ++i) {

@@ -214,4 +214,20 @@ void add_body(Scene& scene, const SettingsList& list) {
   if (last == 0) slow_down(scene, list, last);
 }
 
+void add_box(Scene& scene) {
+  const SettingsList& list = body_rows().front().list;
+  add_body(scene, list);
+  CubeSettings& box = scene.model.cubes.back();
+  const int along = std::min(std::ranges::max(box.lattice()), 512), across = std::max((along + 1) / 2, 2);
+  box.particles = {along, across, across};
+  place_body(scene, list, scene.model.cubes.size() - 1);
+}
+
+double longest_extent(const ModelSettings& settings) {
+  const auto bodies = Bodies::of(settings);
+  if (!bodies) return 0.0;
+  const Extent box = bodies->extent();
+  return std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});
+}
+
 }  // namespace aspic

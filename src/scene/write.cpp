@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <concepts>
+#include <optional>
 #include <vector>
 
 #include "base/printable.h"
+#include "model/bodies.h"
 
 namespace aspic {
 namespace {
@@ -34,6 +36,14 @@ std::string string_text(std::string_view s) {
   return text + "\"";
 }
 
+/// A key of a table as TOML writes it.
+std::string key_of_table(const std::string& key) {
+  const bool bare = !key.empty() && std::ranges::all_of(key, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  return bare ? key : string_text(key);
+}
+
 struct Writer {
   std::string operator()(std::integral auto x) const { return fmt::format("{}", x); }
   std::string operator()(double x) const { return number_text(x); }
@@ -52,13 +62,8 @@ struct Writer {
   }
   std::string operator()(const CellPalette& x) const {
     std::vector<std::string> all;
-    for (const auto& [cell, name] : x) {
-      const bool bare = !cell.empty() && std::ranges::all_of(cell, [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-               c == '-';
-      });
-      all.push_back(fmt::format("{} = {}", bare ? cell : string_text(cell), string_text(name)));
-    }
+    for (const auto& [cell, name] : x)
+      all.push_back(fmt::format("{} = {}", key_of_table(cell), string_text(name)));
     return all.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(all, ", "));
   }
   std::string operator()(const PinnedSettings& x) const {
@@ -68,6 +73,18 @@ struct Writer {
     return fmt::format("[{}]", fmt::join(all, ", "));
   }
 };
+
+/// Layers one above the other, with a line for each row.
+std::string rows_text(const CellLayers& layers) {
+  std::string text = "[";
+  for (const auto& layer : layers) {
+    text += "\n  [";
+    for (const std::string& row : layer)
+      text += fmt::format("{}{}", &row == &layer.front() ? "" : ",\n   ", string_text(row));
+    text += "],";
+  }
+  return text + "\n]";
+}
 
 /// Layers on a line each, or several small ones on one.
 std::string layers_text(const CellLayers& layers) {
@@ -111,9 +128,33 @@ struct Line {
   std::string text, comment;
 };
 
+/// How a scene is written.
+struct Manner {
+  /// Of a short file what is known of the scene before a key is written: it takes what is, and keys that say
+  /// nothing new are left out. Null: every key is written.
+  Scene* known = nullptr;
+};
+
+/// Keys that a person writes whatever their value: the format's version, the name, which would be the file's,
+/// and what a body of cells is.
+bool says_what_it_is(const Parameter& p) {
+  return p.path == "schema" || p.path == "name" || p.type == ParameterType::layers;
+}
+
+/// A value of a key of the scene.
+std::string value_text(const Parameter& p, const Value& value, const Manner& manner) {
+  if (p.type == ParameterType::layers) {
+    const auto& layers = std::get<CellLayers>(value);
+    return manner.known ? rows_text(layers) : layers_text(layers);
+  }
+  if (p.type == ParameterType::names) return names_text(value);
+  return p.path == "voxels[].skin" ? wrapped_text(std::get<std::string>(value)) : toml_value(value);
+}
+
 /// Lines of one table; `prefix` is its path with a dot ("" for the head of the file). Keys one level deeper
 /// are gathered into inline tables.
-std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::size_t index) {
+std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::size_t index,
+                           const Manner& manner) {
   struct Inline {
     std::string_view name;
     std::string text, comment;
@@ -133,18 +174,22 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
     const auto value = p.get(scene, index);
     if (!value) {
       // Written as a comment, so that the file shows every key there is.
-      if (dot == std::string_view::npos && applies(p, scene, index)) {
+      if (!manner.known && dot == std::string_view::npos && applies(p, scene, index)) {
         lines.push_back({fmt::format("# {}: {}", rest, p.when_absent), ""});
       }
       continue;
     }
-    const std::string text = p.type == ParameterType::layers  ? layers_text(std::get<CellLayers>(*value))
-                             : p.path == "voxels[].skin"      ? wrapped_text(std::get<std::string>(*value))
-                             : p.type == ParameterType::names ? names_text(*value)
-                                                              : toml_value(*value);
+    if (manner.known && !says_what_it_is(p)) {
+      // By their texts, which tell -0 from 0.
+      const auto known = p.get(*manner.known, index);
+      if (known && toml_value(*known) == toml_value(*value)) continue;
+      p.set(*manner.known, index, *value);
+    }
+    const std::string text = value_text(p, *value, manner);
     if (dot == std::string_view::npos) {
       std::string comment(p.unit);
-      if (p.type == ParameterType::word) comment = fmt::format("{}", fmt::join(p.words, " | "));
+      if (p.type == ParameterType::word && !manner.known)
+        comment = fmt::format("{}", fmt::join(p.words, " | "));
       lines.push_back({fmt::format("{} = {}", rest, text), comment});
       continue;
     }
@@ -176,6 +221,47 @@ std::string aligned(const std::vector<Line>& lines) {
   return text;
 }
 
+/// Materials in a table by name, a line each. Nothing where that would not read as the same list: some have
+/// no name, or they are not in the order of names, in which tables are read.
+std::optional<std::string> material_table(const Scene& scene) {
+  const auto& materials = scene.model.materials;
+  if (!std::ranges::is_sorted(materials, {}, &MaterialSettings::name) || materials.empty() ||
+      materials.front().name.empty())
+    return std::nullopt;
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    std::string keys;
+    for (const Parameter& p : parameters())
+      if (p.section() == "material[]" && p.key() != "name")
+        keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", p.key(), toml_value(*p.get(scene, i)));
+    lines.push_back({fmt::format("{} = {{ {} }}", key_of_table(materials[i].name), keys), ""});
+  }
+  return "\n[material]\n" + aligned(lines);
+}
+
+std::string written(const Scene& scene, const Manner& manner) {
+  std::string text = aligned(lines_of(scene, "", 0, manner));
+  std::vector<std::string_view> done;
+  for (const Parameter& p : parameters()) {
+    const std::string_view section = p.section();
+    if (section.empty() || std::ranges::find(done, section) != done.end()) continue;
+    done.push_back(section);
+    if (const auto table = manner.known && section == "material[]" ? material_table(scene) : std::nullopt) {
+      text += *table;
+      continue;
+    }
+    const bool list = section.ends_with("[]");
+    for (std::size_t i = 0; i < index_count(p, scene); ++i) {
+      const std::vector<Line> lines = lines_of(scene, fmt::format("{}.", section), i, manner);
+      if (lines.empty() && !list && manner.known) continue;
+      text += list ? fmt::format("\n[[{}]]\n", section.substr(0, section.size() - 2))
+                   : fmt::format("\n[{}]\n", section);
+      text += aligned(lines);
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string toml_value(const Value& value) {
@@ -183,20 +269,14 @@ std::string toml_value(const Value& value) {
 }
 
 std::string to_toml(const Scene& scene) {
-  std::string text = aligned(lines_of(scene, "", 0));
-  std::vector<std::string_view> done;
-  for (const Parameter& p : parameters()) {
-    const std::string_view section = p.section();
-    if (section.empty() || std::ranges::find(done, section) != done.end()) continue;
-    done.push_back(section);
-    const bool list = section.ends_with("[]");
-    for (std::size_t i = 0; i < index_count(p, scene); ++i) {
-      text += list ? fmt::format("\n[[{}]]\n", section.substr(0, section.size() - 2))
-                   : fmt::format("\n[{}]\n", section);
-      text += aligned(lines_of(scene, fmt::format("{}.", section), i));
-    }
-  }
-  return text;
+  return written(scene, {});
+}
+
+std::string to_short_toml(const Scene& scene) {
+  Scene known;
+  for (const SettingsList& list : settings_lists())
+    while (list.size(known.model) < list.size(scene.model)) list.append(known.model);
+  return written(scene, {&known});
 }
 
 }  // namespace aspic

@@ -23,6 +23,11 @@ void expect_round_trip(const Scene& scene) {
   ASSERT_TRUE(again.ok()) << again.error().message() << "\n" << text;
   test::expect_same_scene(scene, *again);
   EXPECT_EQ(to_toml(*again), text);
+  const std::string brief = to_short_toml(scene);
+  const auto same = parse_scene(brief, "scene.toml", {}, test::unlimited);
+  ASSERT_TRUE(same.ok()) << same.error().message() << "\n" << brief;
+  EXPECT_EQ(to_toml(*same), text) << brief;
+  EXPECT_EQ(to_short_toml(*same), brief);
 }
 
 TEST(Write, RoundTripsBuiltins) {
@@ -145,6 +150,47 @@ TEST(Write, NamesMaterialsAndShowsCellsLayerByLayer) {
   EXPECT_THAT(text, HasSubstr("\nmaterial = \"fat\"\n"));
   EXPECT_THAT(text, HasSubstr("\npalette = { \"#\" = \"fat\", 1 = \"bone\" }\n"));
   EXPECT_THAT(text, HasSubstr(fmt::format("\nlayers = [\n  [\"{0}\"],\n  [\"{0}\"],\n]\n", long_row)));
+  expect_round_trip(scene);
+}
+
+TEST(Write, AShortFileHasWhatIsNotDefault) {
+  EXPECT_EQ(to_short_toml(test::parsed("schema = 1\nname = \"a\"\n[[terrain]]\n[[cube]]\n")),
+            "schema = 1\nname = \"a\"\n\n[[terrain]]\n\n[[cube]]\n");
+  const Scene scene = test::parsed(
+      "schema = 1\nname = \"worm\"\n[simulation]\ntimestep = 0.0005\ngravity = [0, -9.8, 0]\n"
+      "[material]\nfat = { density = 900.0 }\n\"two words\" = { youngs-modulus = 1e5 }\n"
+      "[[terrain]]\nshape = \"bowl\"\nradius = 3\n[[cube]]\nparticles = [3, 2, 2]\nmaterial = {}\n"
+      "[[voxels]]\nsize = 0.25\npalette = { 1 = \"fat\", \"#\" = \"two words\" }\n"
+      "layers = [[\"11.11\", \"11.11\"], [\"#####\", \"#...#\"]]\npinned = [\"left\"]\n");
+  EXPECT_EQ(to_short_toml(scene), R"(schema = 1
+name = "worm"
+
+[simulation]
+timestep = 0.0005  # s
+
+[[terrain]]
+shape = "bowl"
+radius = 3.0  # m
+
+[material]
+fat = { density = 900.0, youngs-modulus = 33000.0, damping-ratio = 0.95 }
+"two words" = { density = 16.0, youngs-modulus = 100000.0, damping-ratio = 0.95 }
+
+[[cube]]
+particles = [3, 2, 2]
+material = { density = 16.0 }  # kg/m³
+
+[[voxels]]
+size = 0.25  # m
+palette = { "#" = "two words", 1 = "fat" }
+layers = [
+  ["11.11",
+   "11.11"],
+  ["#####",
+   "#...#"],
+]
+pinned = ["left"]
+)");
   expect_round_trip(scene);
 }
 
