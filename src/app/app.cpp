@@ -9,10 +9,13 @@
 #include <utility>
 
 #include "analysis/stability.h"
+#include "app/add_mesh.h"
 #include "app/panels.h"
 #include "run/backends.h"
 #include "run/run_files.h"
 #include "run/window_host.h"
+#include "scene/follow.h"
+#include "scene/import_mesh.h"
 
 namespace aspic::app {
 
@@ -50,7 +53,8 @@ App::App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulati
       comparison(simulation, scene.scene(), options.asked),
       comparison_view(comparison, scene, view, picture, messages, options.asked),
       film(simulation, scene.editor(), view, picture, comparison, comparison_view, messages),
-      pointer(simulation, view, picture, hands) {
+      pointer(simulation, view, picture, hands),
+      cells(scene) {
   hands.refusal = [this] { return comparison.hands_refused(); };
 }
 
@@ -74,6 +78,25 @@ void App::ask_for_scene() {
   files.ask(
       {"Open", {".toml", ".aspic"}, false, [this](const std::string& path, Overwrite) { scene.open(path); }},
       scene.editor().is_file() ? scene.editor().source() : "");
+}
+
+void App::ask_for_mesh() {
+  open_page(Page::files);
+  files.ask({"Add",
+             {".obj", ".stl", ".ply"},
+             false,
+             [this](const std::string& path, Overwrite) { add_mesh(scene, messages, path); }},
+            "");
+}
+
+/// Of the body under the mouse, or of the one that is edited.
+void App::edit_hovered_cells() {
+  const auto& hovered = pointer.hovered();
+  for (std::size_t i = 0; hovered && !hovered->ball && i < scene.scene().model.voxels.size(); ++i)
+    if (name_of_body(scene.scene().model, simulation.model(), hovered->particle) ==
+        fmt::format("voxels[{}]", i))
+      cells.choose_body(i);
+  show_section(layout, "Cells");
 }
 
 void App::ask_where_to_save() {
@@ -223,6 +246,7 @@ void App::deliver_keys() {
     if (event.character == 0 || typing) gui_->key(event);
     if (typing || (event.character == 0 && event.action == GLFW_RELEASE)) continue;
     if (event.character != 0) {
+      if (cells.choose_by_digit(static_cast<char32_t>(event.character))) continue;
       commands_.on_character(static_cast<char32_t>(event.character));
     } else if (event.key == GLFW_KEY_ESCAPE && event.action == GLFW_PRESS) {
       help_visible = false;
@@ -241,7 +265,8 @@ void App::mouse_button(int button, int action, int modifiers) {
   gui_->mouse_button(button, action);
   if (action != GLFW_RELEASE) return pointer.press(button, modifiers, gui_->takes_mouse());
   pointer.release(button);
-  if (button == GLFW_MOUSE_BUTTON_LEFT) scene.end_gesture();
+  // A stroke over cells is a gesture of its own, whose end the next picture sees.
+  if (button == GLFW_MOUSE_BUTTON_LEFT && !cells.pointed()) scene.end_gesture();
 }
 
 void App::cursor(double x, double y) {
@@ -260,7 +285,11 @@ void App::scroll(double dx, double dy) {
 
 void App::drop(const std::vector<std::string>& paths) {
   touch();
-  if (!paths.empty()) scene.open(paths.front());
+  // Meshes become bodies of the scene that is open; of others the first is opened.
+  const auto is_mesh = [](const std::string& path) { return names_mesh(path); };
+  if (const auto other = std::ranges::find_if_not(paths, is_mesh); other != paths.end()) scene.open(*other);
+  for (const std::string& path : paths)
+    if (is_mesh(path)) add_mesh(scene, messages, path);
 }
 
 // ---- pictures ----
@@ -321,7 +350,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   gui_->begin(dt);
   view.text_scale = gui_->scale();
   draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, files,
-               palette, comparison, comparison_view, closing, help_visible},
+               palette, comparison, comparison_view, closing, help_visible, cells},
               size.width, size.height);
   if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
     view.frame_bodies(simulation.model(), simulation.snapshot());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cell_editor.h"
 #include "app/commands.h"
 #include "app/comparison_view.h"
 #include "app/file_dialog.h"
@@ -101,6 +102,7 @@ class App final : public EventReceiver {
   Layouts layout;
   FileDialog files;
   Palette palette;
+  CellEditor cells;
   Closing closing = Closing::no;
   bool help_visible = false;
 
@@ -114,6 +116,8 @@ class App final : public EventReceiver {
   enum class Page { none, help, palette, files };
   void open_page(Page page);
   void ask_for_scene();
+  void ask_for_mesh();
+  void edit_hovered_cells();
   void ask_where_to_save();
   Status make_picture(const WindowSize& size, double dt);
   enum class Shot { none, picture, window };

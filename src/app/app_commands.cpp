@@ -46,6 +46,12 @@ std::vector<Command> App::make_commands() {
   const auto full_screen = [this] {
     if (gui_->services().toggle_full_screen) gui_->services().toggle_full_screen();
   };
+  // Cells that wait are what was done last.
+  const auto undo = [this] {
+    if (!cells.take_back()) scene.undo();
+  };
+  const auto layer_up = [this] { cells.choose_layer(cells.layer() + 1); };
+  const auto layer_down = [this] { cells.choose_layer(cells.layer() - 1); };
   const auto paste = [this] { paste_camera(view, scene.scene(), gui_->services(), messages); };
   return {
       {"", "Motion"},
@@ -68,9 +74,18 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+O", "open a scene, checkpoint or inputs", GLFW_KEY_O, ctrl, 0, [this] { ask_for_scene(); }},
       {"Ctrl+S", "save the scene", GLFW_KEY_S, ctrl, 0, [this] { ask_where_to_save(); }},
       {"F5", "reload the scene", GLFW_KEY_F5, 0, 0, [this] { scene.reload(); }},
-      {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [this] { scene.undo(); }, true},
+      {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, undo, true},
       {"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [this] { scene.redo(); }, true},
       {"Ctrl+Y", "redo", GLFW_KEY_Y, ctrl, 0, [this] { scene.redo(); }, true},
+      {"", "Bodies and cells"},
+      {"N", "add a body", GLFW_KEY_N, 0, 0, [this] { show_section(layout, "Bodies"); }},
+      {"Ctrl+M", "add a mesh", GLFW_KEY_M, ctrl, 0, [this] { ask_for_mesh(); }},
+      {"E", "edit cells, of the body under the mouse", GLFW_KEY_E, 0, 0, [this] { edit_hovered_cells(); }},
+      {"left, right drag", "paint and erase cells of the layer that is shown"},
+      {"middle click", "take the material of a cell"},
+      {"1 … 9, 0", "the material to paint with, or the eraser"},
+      {"Page Up", "the layer of cells above", GLFW_KEY_PAGE_UP, 0, 0, layer_up, true},
+      {"Page Down", "the layer of cells below", GLFW_KEY_PAGE_DOWN, 0, 0, layer_down, true},
       {"", "Runs side by side"},
       {"Ctrl+B", "add a run side by side", GLFW_KEY_B, ctrl, 0, [this] { comparison_view.add(); }},
       {"Ctrl+G", "keep this run as ghost", GLFW_KEY_G, ctrl, 0, [this] { comparison_view.keep_ghost(); }},

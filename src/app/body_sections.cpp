@@ -2,13 +2,15 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/memory.h"
 #include "base/printable.h"
 #include "model/bodies.h"
 #include "model/springs.h"
-#include "scene/follow.h"
+#include "scene/new_body.h"
 
 namespace aspic::app {
 namespace {
@@ -25,17 +27,6 @@ std::string memory_note(const Solver& solver) {
   if (const auto free = available_memory())
     note += fmt::format(" {} of memory are free; a scene that does not fit is refused.", human_bytes(*free));
   return note + " Particles grow with the third power of the particles per edge.";
-}
-
-/// A line that names an element of a list, with a button that removes it. True if it was pressed.
-bool element_line(Gui& gui, const std::string& title, const std::string& name, std::string_view help,
-                  bool enabled) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", title.c_str());
-  const char* const label = "Remove";
-  const float width = ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x;
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
-  return button(gui, name.c_str(), label, help, enabled);
 }
 
 std::size_t body_count(const ModelSettings& settings) {
@@ -55,10 +46,7 @@ bool body_line(Gui& gui, SceneControl& scene, const SettingsList& list, std::siz
   if (!element_line(gui, fmt::format("{} {}", name, i), fmt::format("{}/{}/remove", list.key, i), help,
                     !last_body))
     return false;
-  scene.change("remove " + name, [&](Scene& s) {
-    list.remove(s.model, i);
-    if (s.view.follow) s.view.follow = followed_without(*s.view.follow, list.key, i);
-  });
+  scene.change("remove " + name, [&](Scene& s) { remove_body(s, list, i); });
   return true;
 }
 
@@ -68,26 +56,83 @@ bool add_button(Gui& gui, std::string_view key, std::string_view help) {
                 fmt::format("{}\n\nScene key: [[{}]]", help, key), true, -1.0f);
 }
 
-void add_body_button(Gui& gui, SceneControl& scene, const SettingsList& list) {
-  if (add_button(gui, list.key,
-                 fmt::format("Adds a {}, a copy of the last one if there is one: it falls on the bodies "
-                             "under it, or is placed "
-                             "next to them. Restarts the simulation.",
-                             noun_of(list.key))))
-    add_body(scene, list);
+/// One of the kinds of bodies to add.
+struct Kind {
+  const char* name;  ///< of the button: NAME/add
+  const char* label;
+  std::string_view key;  ///< of the list
+};
+constexpr Kind kinds[] = {{"cube", "Cube", "cube"},
+                          {"box", "Box", "cube"},
+                          {"voxels", "Cells", "voxels"},
+                          {"cloth", "Cloth", "cloth"},
+                          {"goal-net", "Net", "goal-net"},
+                          {"ball", "Ball", "ball"},
+                          {"launcher", "Launcher", "launcher"}};
+
+/// As many buttons as a line has room for their words, four at most.
+int buttons_of_a_line() {
+  float widest = 0.0f;
+  for (const Kind& kind : kinds) widest = std::max(widest, ImGui::CalcTextSize(kind.label).x);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float each = widest + 2.0f * style.FramePadding.x + style.ItemSpacing.x;
+  return std::clamp(static_cast<int>((ImGui::GetContentRegionAvail().x + style.ItemSpacing.x) / each), 1, 4);
 }
 
-/// Every body of one list with all its keys, straight from the table, and a button that adds one.
-void bodies_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
-  const std::string prefix = fmt::format("{}[].", list.key);
+/// A button for each kind of body, and for a mesh.
+void add_buttons(Gui& gui, SceneControl& scene, CellEditor& cells) {
+  group_heading("Add a body");
+  const int columns = buttons_of_a_line();
+  const float width = share_of_line(columns);
+  int column = 0;
+  for (const Kind& kind : kinds) {
+    if (column++ % columns != 0) ImGui::SameLine();
+    const SettingsList& list = *list_of_bodies(kind.key);
+    const bool box = std::string_view(kind.name) == "box";
+    const std::string noun = box ? "box" : noun_of(list.key);
+    const std::string help =
+        fmt::format("Adds a {}{} where it is in nobody's way. Restarts the simulation.\n\nScene key: [[{}]]",
+                    noun, list.size(scene.scene().model) > 0 && !box ? ", like the last one," : "", list.key);
+    if (!button(gui, fmt::format("{}/add", kind.name).c_str(), kind.label, help, true, width)) continue;
+    if (box)
+      scene.change("add box", [](Scene& s) { add_box(s); });
+    else
+      add_body(scene, list);
+    if (kind.key != "voxels") continue;
+    cells.choose_body(list.size(scene.scene().model) - 1);
+  }
+  if (column % columns != 0) ImGui::SameLine();
+  command_button(
+      gui, "mesh/add", "Mesh…",
+      "Adds the cells inside a mesh (.obj, .stl, .ply) where they are in nobody's way, with the mesh as "
+      "their skin. Dropping the file on the window does the same.\n\nScene key: [[voxels]]",
+      "add a mesh", true, width);
+}
+
+/// Opens the section in which the cells of a body are edited.
+void cells_button(Gui& gui, CellEditor& cells, Layouts& layout, std::size_t i) {
+  if (!button(gui, fmt::format("voxels/{}/cells", i).c_str(), "Edit its cells",
+              "Shows the body's layers under Cells, where the mouse paints them.", true, -1.0f))
+    return;
+  cells.choose_body(i);
+  show_section(layout, "Cells");
+}
+
+/// Every body of one list with all its keys, straight from the table.
+void bodies_of(Gui& gui, SceneControl& scene, CellEditor& cells, Layouts& layout, const SettingsList& list) {
+  const std::string section = fmt::format("{}[]", list.key), prefix = section + ".";
   for (std::size_t i = 0; i < list.size(scene.scene().model); ++i) {
     if (body_line(gui, scene, list, i)) return;
+    if (list.key == "voxels") cells_button(gui, cells, layout, i);
+    const bool made = find_parameter(prefix + "material.name") != nullptr;
+    if (made) made_of_row(gui, scene, section, i);
+    if (made) add_actuator_button(gui, scene, list.key, i);
     for (const Parameter& p : parameters()) {
       if (!p.path.starts_with(prefix) || !applies(p, scene.scene(), i)) continue;
+      if (p.path == prefix + "material.name") continue;  // chosen above
       edit(gui, scene, p.path, i, {capitalized(spaced(p.path.substr(prefix.size())))});
     }
   }
-  add_body_button(gui, scene, list);
 }
 
 /// Which springs the picture shows: the words of view.draw, next to the springs' own values.
@@ -184,6 +229,16 @@ void terrain(Gui& gui, SceneControl& scene, std::size_t index) {
 
 }  // namespace
 
+bool element_line(Gui& gui, const std::string& title, const std::string& name, std::string_view help,
+                  bool enabled) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", title.c_str());
+  const char* const label = "Remove";
+  const float width = ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+  return button(gui, name.c_str(), label, help, enabled);
+}
+
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
   const std::string note = memory_note(scene.solver());
   edit(gui, scene, "cube[].particles-per-edge", cube, {{}, note});
@@ -193,7 +248,8 @@ void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
   edit(gui, scene, "cube[].rotation.angle", cube, {"Rotation angle"});
 }
 
-void bodies_section(Gui& gui, SceneControl& scene) {
+void bodies_section(Gui& gui, SceneControl& scene, CellEditor& cells, Layouts& layout) {
+  add_buttons(gui, scene, cells);
   const SettingsList& cubes = body_rows().front().list;
   const std::size_t count = cubes.size(scene.scene().model);
   for (std::size_t i = 0; i < count; ++i) {
@@ -203,21 +259,21 @@ void bodies_section(Gui& gui, SceneControl& scene) {
     edit(gui, scene, "cube[].edge-length", i,
          {scene.scene().model.cubes[i].particles ? "Longest edge" : "Edge"});
     edit(gui, scene, "cube[].velocity", i);
+    made_of_row(gui, scene, "cube[]", i);
     edit(gui, scene, "cube[].particle-mass", i);
     edit(gui, scene, "cube[].friction", i);
     edit(gui, scene, "cube[].pinned", i);
+    add_actuator_button(gui, scene, "cube", i);
   }
-  add_body_button(gui, scene, cubes);
-  for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, row.list);
+  for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, cells, layout, row.list);
+  actuators_of_bodies(gui, scene);
   if (body_count(scene.scene().model) > 1 && !scene.scene().model.contact.bodies)
     ImGui::TextDisabled("Bodies pass through each other: see Contact.");
 }
 
 void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
   const std::size_t count = scene.scene().model.cubes.size();
-  const auto& materials = scene.scene().model.materials;
-  if (count == 0 && materials.empty())
-    ImGui::TextDisabled("No cube; springs of other bodies are under Bodies.");
+  if (count == 0) ImGui::TextDisabled("No cube; springs of other bodies are under Bodies.");
   for (std::size_t i = 0; i < count; ++i) {
     ImGui::PushID(static_cast<int>(i));
     if (count > 1) group_heading(fmt::format("cube {}", i));
@@ -243,12 +299,6 @@ void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
       }
     }
     ImGui::PopID();
-  }
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    group_heading(fmt::format("material {}", materials[i].name));
-    edit(gui, scene, "material[].density", i);
-    edit(gui, scene, "material[].youngs-modulus", i, {"Young's modulus"});
-    edit(gui, scene, "material[].damping-ratio", i);
   }
   shown_springs(gui, scene);
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "command_line/window_layouts.h"
 
@@ -62,11 +63,17 @@ class Layouts : public Layout {
   const Layout& shown() const { return *this; }
   const std::map<std::string, Layout>& left() const { return left_; }
   void restore(const LayoutRow& row, const Layout& shown, std::map<std::string, Layout> left);
-  friend bool operator==(const Layouts&, const Layouts&) = default;
+  /// A section by heading that is to be scrolled into sight, once; it is no part of what files keep.
+  void want(std::string_view section) { wanted_ = section; }
+  std::string take_wanted() { return std::exchange(wanted_, ""); }
+  friend bool operator==(const Layouts& a, const Layouts& b) {
+    return a.shown() == b.shown() && a.row_ == b.row_ && a.left_ == b.left_;
+  }
 
  private:
   const LayoutRow* row_ = &layouts().front();
   std::map<std::string, Layout> left_;
+  std::string wanted_;
 };
 
 }  // namespace aspic::app

@@ -13,6 +13,7 @@
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "aspic/scene.h"
+#include "scene/new_body.h"
 
 namespace aspic::app {
 namespace {
@@ -95,10 +96,8 @@ std::vector<Palette::Hit> Palette::find(const PanelParts& p) {
     }
   }
   for (const auto& [section, help] : section_names())
-    add("section " + section, help, {.help = help, .act = [this, &p, section = section] {
-                                       show_section(p.layout, section);
-                                       section_ = section;
-                                     }});
+    add("section " + section, help,
+        {.help = help, .act = [&p, section = section] { show_section(p.layout, section); }});
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
     const std::string name(builtin.name);
     add("open " + name, "",
@@ -106,8 +105,11 @@ std::vector<Palette::Hit> Palette::find(const PanelParts& p) {
   }
   for (const BodyRow& row : body_rows())
     add(fmt::format("add a {}", noun_of(row.list.key)), "",
-        {.help = "Next to the existing bodies. Restarts the simulation.",
+        {.help = "Where it is in nobody's way. Restarts the simulation.",
          .act = [&p, &row] { add_body(p.scene, row.list); }});
+  add("add a box", "", {.help = "Where it is in nobody's way. Restarts the simulation.", .act = [&p] {
+                          p.scene.change("add box", [](Scene& s) { add_box(s); });
+                        }});
   for (const std::string& body : followed_names(scene))
     add("follow " + body, "",
         {.help = "The camera moves along with it.", .act = [&p, body] { set_followed(p.scene, body); }});

@@ -25,8 +25,6 @@ class Palette {
   bool is_open() const { return open_; }
   /// Once for each picture, between Gui::begin and end; sizes in window units.
   void draw(const PanelParts& parts, double width, double height);
-  /// The section that is to be scrolled into sight, once.
-  std::string take_section() { return std::exchange(section_, ""); }
 
  private:
   struct Hit;
@@ -36,7 +34,7 @@ class Palette {
   bool open_ = false, just_opened_ = false;
   bool back_to_query_ = false;  // a value was entered
   int typed_row_ = -1;          // whose value had the keyboard in the last picture
-  std::string query_, section_;
+  std::string query_;
   int chosen_ = 0;  // of the hits
 };
 

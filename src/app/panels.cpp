@@ -38,8 +38,14 @@ constexpr Heading left_sections[] = {
      "Stiffness and damping, of all types together or by type, or a material."},
     {"Scene", [](Parts p) { scene_section(p.gui, p.scene); },
      "Scenes and terrain; opening, saving and reloading."},
-    {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); },
-     "Cubes, bodies of cells, nets, cloths, balls and launchers of the scene: place, size, mass, pins."},
+    {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene, p.cells, p.layout); },
+     "Add a body: a cube, a box, cells, a cloth, a net, a ball, a mesh; place, size, mass and pins of those "
+     "there "
+     "are."},
+    {"Cells", [](Parts p) { cells_section(p.gui, p.scene, p.cells); },
+     "The layers of a body of cells, painted with the mouse, and its palette."},
+    {"Materials", [](Parts p) { materials_section(p.gui, p.scene, p.messages); },
+     "Materials that have names: density, Young's modulus and damping ratio."},
     {"Contact", [](Parts p) { contact_section(p.gui, p.scene); },
      "Contact model, restitution, friction, and the terrain's own values."},
     {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); },
@@ -269,6 +275,7 @@ void show_section(Layouts& layout, std::string_view name) {
   if (!there.empty() && std::ranges::find(there, name) == there.end()) layout.choose(layouts().front());
   layout.panels = true;
   layout.sections[std::string(name)] = true;
+  layout.want(name);
 }
 
 void draw_panels(const PanelParts& p, double width, double height) {
@@ -282,7 +289,7 @@ void draw_panels(const PanelParts& p, double width, double height) {
                      width - (layout.left_width + layout.right_width) * scale >= least_view * scale;
     const double right = two ? layout.right_width * scale : 0.0;
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-    const std::string wanted = p.palette.take_section();
+    const std::string wanted = p.layout.take_wanted();
     {
       const Panel panel("##left", {0.0, 0.0, left, bottom}, padding, behind);
       sections(p, left_sections, wanted);
@@ -307,6 +314,7 @@ void draw_panels(const PanelParts& p, double width, double height) {
   closing_panel(p.gui, p.closing, width, height);
   p.files.draw(p.gui, width, height);
   p.palette.draw(p, width, height);
+  draw_edited_layer(p);
   if (const auto& hovered = p.pointer.hovered())
     ball_mark(p.gui, p.simulation.hand(), *hovered, p.view, p.picture.shown());
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/cell_editor.h"
 #include "app/comparison_view.h"
 #include "app/file_dialog.h"
 #include "app/film.h"
@@ -23,6 +24,7 @@
 #include "app/scene_control.h"
 #include "app/scene_picture.h"
 #include "app/view.h"
+#include "model/bodies.h"
 #include "playback/simulation.h"
 
 namespace aspic::app {
@@ -49,11 +51,12 @@ struct PanelParts {
   ComparisonView& comparison_view;
   Closing& closing;
   bool& help_visible;
+  CellEditor& cells;
 };
 
 /// The sections by heading, each with what is in it.
 std::vector<std::pair<std::string, std::string>> section_names();
-/// Opens a section by heading, in a layout that has it.
+/// Opens a section by heading, in a layout that has it, and scrolls it into sight.
 void show_section(Layouts& layout, std::string_view name);
 
 /// Makes all panels of one picture, between Gui::begin and end; sizes in window units. The runs get the place
@@ -63,7 +66,26 @@ void draw_panels(const PanelParts& parts, double width, double height);
 // ---- sections of the panels; each a heading with its widgets ----
 void scene_section(Gui& gui, SceneControl& scene);
 void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene, const Comparison& comparison);
-void bodies_section(Gui& gui, SceneControl& scene);
+void bodies_section(Gui& gui, SceneControl& scene, CellEditor& cells, Layouts& layout);
+/// Layers of a body of cells, painted with the mouse, and its palette.
+void cells_section(Gui& gui, SceneControl& scene, CellEditor& cells);
+/// Materials that have names.
+void materials_section(Gui& gui, SceneControl& scene, Messages& messages);
+/// What a body of a section, `cube[]`, is made of.
+void made_of_row(Gui& gui, SceneControl& scene, std::string_view section, std::size_t index);
+/// A line that names an element of a list, with a button that removes it. True if it was pressed.
+bool element_line(Gui& gui, const std::string& title, const std::string& name, std::string_view help,
+                  bool enabled);
+/// Adds an actuator that acts on a body; all actuators with their keys. Nothing where scenes have none.
+void add_actuator_button(Gui& gui, SceneControl& scene, std::string_view key, std::size_t index);
+void actuators_of_bodies(Gui& gui, SceneControl& scene);
+/// Removes a body from a scene: the camera does not follow it any more, and no actuator acts on it.
+void remove_body(Scene& scene, const SettingsList& bodies, std::size_t index);
+/// The colour in which the window shows a material by name, and cells of a body; neutral for none.
+ImU32 material_colour(const ModelSettings& settings, std::string_view name);
+ImU32 cell_colour(const ModelSettings& settings, const VoxelsSettings& voxels, char cell);
+/// The material of such cells in words.
+std::string material_text(const VoxelsSettings& voxels, char cell);
 /// Size, place and turn of a cube.
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube);
 void springs_section(Gui& gui, SceneControl& scene, Layouts& layout);
@@ -99,6 +121,8 @@ Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered
 /// A ring around the ball under the mouse, and the band by which `hand` pulls it, where the picture is.
 void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& hovered, const View& view,
                const Box& picture);
+/// The layer of cells that is edited, where it is in the picture, at the run's start.
+void draw_edited_layer(const PanelParts& parts);
 /// What the colours mean, in the lower right corner of the view. Returns its place, with the gap below and
 /// next to it; empty if there is none. `name` is that of its widget.
 Box draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view);

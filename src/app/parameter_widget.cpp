@@ -282,6 +282,11 @@ std::string elided_path(const std::string& path, float width) {
   return std::string(dots) + std::string(end);
 }
 
+const SettingsList* list_of_bodies(std::string_view key) {
+  const auto found = std::ranges::find(body_rows(), key, [](const BodyRow& row) { return row.list.key; });
+  return found == body_rows().end() ? nullptr : &found->list;
+}
+
 void add_body(SceneControl& scene, const SettingsList& list) {
   scene.change("add " + noun_of(list.key), [&](Scene& s) { aspic::add_body(s, list); });
 }

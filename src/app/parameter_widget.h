@@ -36,6 +36,8 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& paramete
 void edit(Gui& gui, SceneControl& scene, std::string_view path, std::size_t index = 0,
           const WidgetWords& words = {});
 
+/// The list of bodies of that key, `voxels`; never null for one that there is.
+const SettingsList* list_of_bodies(std::string_view key);
 /// aspic::add_body(), as one change for undo.
 void add_body(SceneControl& scene, const SettingsList& list);
 

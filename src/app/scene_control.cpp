@@ -150,8 +150,20 @@ void SceneControl::apply(Scene scene, const std::string& name, const std::string
 /// The change removed what the camera followed.
 void SceneControl::say_if_gone(const std::optional<std::string>& followed) {
   if (!followed || scene().view.follow || find_followed(scene().model, *followed)) return;
-  gone_ = fmt::format(" The scene has no {} any more: the camera follows nothing.", *followed);
-  messages_.info(gone_.substr(1));
+  tell(fmt::format("The scene has no {} any more: the camera follows nothing.", *followed));
+}
+
+void SceneControl::tell(const std::string& sentences) {
+  beside_ = sentences;
+  say_beside("");
+}
+
+/// For as long as it takes to read.
+void SceneControl::say_beside(const std::string& first) {
+  constexpr double characters_a_second = 20.0;
+  const std::string text = first + (first.empty() || beside_.empty() ? "" : " ") + beside_;
+  if (!text.empty())
+    messages_.info(text, std::max(5.0, static_cast<double>(text.size()) / characters_a_second));
 }
 
 void SceneControl::change(const std::string& name, const std::function<void(Scene&)>& make,
@@ -191,6 +203,7 @@ void SceneControl::update(double dt) {
   if (!pending() || simulation_.rebuild().changing() || since_rebuild_ < 4.0 * rebuild_seconds_) return;
   requested_ = std::exchange(pending_, Effect::none);
   requested_at_ = std::chrono::steady_clock::now();
+  had_moved_ = simulation_.step() > 0;
   simulation_.rebuild().request(editor_.scene(), requested_ == Effect::constants);
 }
 
@@ -201,11 +214,13 @@ bool SceneControl::finish_change() {
   since_rebuild_ = 0.0;
   if (!messages_.check(*changed)) {
     if (editor_.can_undo()) editor_.undo();
-  } else if (requested_ == Effect::restart) {
-    messages_.info("The bodies changed: the simulation was restarted." + std::exchange(gone_, ""));
+  } else if (requested_ == Effect::restart && (had_moved_ || !beside_.empty())) {
+    // A run that had not begun loses nothing.
+    say_beside(had_moved_ ? "The bodies changed: the simulation was restarted." : "");
   } else {
     messages_.dismiss_error();
   }
+  beside_.clear();
   return rebuild_seconds_ > 0.05;
 }
 

@@ -48,6 +48,8 @@ class SceneControl {
   void apply(Scene scene, const std::string& name, const std::string& gesture = "");
   void change(const std::string& name, const std::function<void(Scene&)>& make,
               const std::string& gesture = "");
+  /// Says something of the change just made, also once the simulation has taken it.
+  void tell(const std::string& sentences);
   /// The runs that are compared with the scene's own: see SceneEditor.
   void set_differences(std::vector<Difference> differences, const std::string& name) {
     editor_.set_differences(std::move(differences), name);
@@ -74,6 +76,7 @@ class SceneControl {
  private:
   void take_effect(Result<Effect> effect);
   void say_if_gone(const std::optional<std::string>& followed);
+  void say_beside(const std::string& first);
   void show_opened(const std::string& left);
   bool undone(Effect effect, const std::string& left, Effect (SceneEditor::*back)());
   void reread_file();
@@ -85,8 +88,9 @@ class SceneControl {
   Simulation& simulation_;
   View& view_;
   Messages& messages_;
-  std::string gone_;  // what to say of a body that the camera followed
+  std::string beside_;  // what to say besides the end of a change
   Effect pending_ = Effect::none, requested_ = Effect::none;
+  bool had_moved_ = false;  // when the change was requested
   double rebuild_seconds_ = 0.0, since_rebuild_ = 0.0, since_file_look_ = 0.0, unchanged_for_ = 0.0;
   std::chrono::steady_clock::time_point requested_at_ = {};
 };

@@ -160,7 +160,7 @@ Status SceneEditor::save_as(const std::string& path, const CameraSettings& camer
   Scene saved = scene_;
   saved.view.camera = camera;
   ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
-  ASPIC_CHECK(file.write(to_toml(saved)));
+  ASPIC_CHECK(file.write(to_short_toml(saved)));
   ASPIC_CHECK(file.commit());
   scene_ = std::move(saved);
   origin_->source = path;

@@ -66,8 +66,8 @@ class SceneEditor {
   Effect undo();
   Effect redo();
 
-  /// Writes the scene as it is now, complete, with this camera; the file is the one that is open from then
-  /// on. Error (io): it exists and may not be overwritten, or cannot be written.
+  /// Writes the scene as it is now, as a person would, with this camera; the file is the one that is open
+  /// from then on. Error (io): it exists and may not be overwritten, or cannot be written.
   Status save_as(const std::string& path, const CameraSettings& camera, Overwrite overwrite);
   /// The scene is what the file holds.
   void mark_saved() {

@@ -161,6 +161,23 @@ TEST_F(Gallery, ABallThatAHandPulls) {
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
 }
 
+TEST_F(Gallery, CellsArePainted) {
+  app::KeptState kept;
+  kept.greeted = true;
+  for (const char* name : {"Scene", "Simulation", "Springs"}) kept.layout.sections[name] = false;
+  kept.layout.sections["Cells"] = kept.layout.sections["Materials"] = true;
+  open("bridge", {"view.camera={position=[2.6,3.6,5.2],target=[0,0.7,0],fov=44}"}, "reference", kept);
+  app().cells.choose_layer(4);
+  app().cells.choose_brush('o');
+  for (int row = 0; row < 5; ++row) app().cells.stroke({row, 9 + row % 2}, {row, 14 - row % 2}, 'o');
+  frames(3);
+  const app::Box grid = widgets().at("cells/grid");
+  app().cursor(grid.left + 0.65 * (grid.right - grid.left), grid.centre_y());
+  frames(3);
+  EXPECT_TRUE(app().cells.refusal().empty()) << app().cells.refusal();
+  take("window-cells");
+}
+
 TEST_F(Gallery, LectureLayout) {
   open("cube-tilted-plane", {"simulation.steps-per-frame=20"}, "reference");
   press(GLFW_KEY_L);

@@ -17,8 +17,8 @@ class Layout : public Stage {
   static app::KeptState with_sections(bool open) {
     app::KeptState kept;
     kept.greeted = true;
-    for (const char* name : {"Scene", "Simulation", "Bodies", "Springs", "Contact", "Balls", "View",
-                             "Recording", "Performance", "Energy", "Compare backends"})
+    for (const char* name : {"Scene", "Simulation", "Bodies", "Cells", "Materials", "Springs", "Contact",
+                             "Balls", "View", "Recording", "Performance", "Energy", "Compare backends"})
       kept.layout.sections[name] = open;
     return kept;
   }

@@ -408,12 +408,12 @@ TEST_F(Panels, TerrainsAndCubesComeAndGo) {
   click("cube/add");
   ASSERT_EQ(settings().cubes.size(), 2u);
   EXPECT_EQ(simulation().model().particle_count(), 2000u);
-  EXPECT_GE(settings().cubes[1].position.x - settings().cubes[0].position.x, settings().cubes[0].edge_length)
+  EXPECT_GE(settings().cubes[1].position.y - settings().cubes[0].position.y, settings().cubes[0].edge_length)
       << "not through one another";
-  const double second = settings().cubes[1].position.x;
+  const double second = settings().cubes[1].position.y;
   click("cube/0/remove");
   ASSERT_EQ(settings().cubes.size(), 1u);
-  EXPECT_EQ(settings().cubes[0].position.x, second) << "the other one stays";
+  EXPECT_EQ(settings().cubes[0].position.y, second) << "the other one stays";
 }
 
 TEST_F(Panels, ShapeMakesABoxOfACubeAndACubeOfABox) {
