@@ -15,6 +15,8 @@ struct OrderStudy {
 };
 /// Errors: of the reference solver.
 Result<OrderStudy> study_order(const Subject& subject, Integrator integrator);
+/// The same of springs whose rest lengths follow a sine of 2 Hz with an amplitude of a tenth.
+Result<OrderStudy> study_actuated_order(const Subject& subject, Integrator integrator);
 
 /// A 5³ cube on a plane slope.
 struct Slide {

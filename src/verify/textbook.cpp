@@ -30,7 +30,7 @@ Motion<T> motion_of(const State& state) {
 }
 
 template <class T>
-Column<T> force(const Model& model, const Motion<T>& motion) {
+Column<T> force(const Model& model, const Motion<T>& motion, T rest) {
   Column<T> f = Column<T>::Zero(motion.x.size());
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -46,8 +46,9 @@ Column<T> force(const Model& model, const Motion<T>& motion) {
     const T now = stretch.norm();
     if (now == T(0)) continue;
     const Eigen::Matrix<T, 3, 1> along = stretch / now;
-    const T tension = static_cast<T>(constants.stiffness) * (now - static_cast<T>(constants.rest_length)) +
-                      static_cast<T>(constants.damping) * rate.dot(along);
+    const T tension =
+        static_cast<T>(constants.stiffness) * (now - rest * static_cast<T>(constants.rest_length)) +
+        static_cast<T>(constants.damping) * rate.dot(along);
     f.template segment<3>(at(spring.a)) -= tension * along;
     f.template segment<3>(at(spring.b)) += tension * along;
   }
@@ -56,8 +57,8 @@ Column<T> force(const Model& model, const Motion<T>& motion) {
 
 template Motion<double> motion_of<double>(const State&);
 template Motion<long double> motion_of<long double>(const State&);
-template Column<double> force<double>(const Model&, const Motion<double>&);
-template Column<long double> force<long double>(const Model&, const Motion<long double>&);
+template Column<double> force<double>(const Model&, const Motion<double>&, double);
+template Column<long double> force<long double>(const Model&, const Motion<long double>&, long double);
 
 double elastic_energy(const Model& model, const State& state, std::int64_t particle) {
   long double sum = 0;
@@ -74,10 +75,11 @@ double elastic_energy(const Model& model, const State& state, std::int64_t parti
   return static_cast<double>(sum);
 }
 
-Motion<long double> exact_motion(const Model& model, const State& start, double duration, int steps) {
+Motion<long double> exact_motion(const Model& model, const State& start, double duration, int steps,
+                                 const std::function<long double(long double)>& stretch) {
   using Real = long double;
-  const auto slope = [&](const Motion<Real>& now) {
-    Motion<Real> rate{now.v, force(model, now)};
+  const auto slope = [&](const Motion<Real>& now, Real time) {
+    Motion<Real> rate{now.v, force(model, now, stretch ? stretch(time) : Real(1))};
     for (Eigen::Index i = 0; i < rate.v.size(); ++i) {
       rate.v[i] *= static_cast<Real>(model.inverse_mass[static_cast<std::size_t>(i / 3)]);
     }
@@ -89,8 +91,9 @@ Motion<long double> exact_motion(const Model& model, const State& start, double 
   const Real h = static_cast<Real>(duration) / steps;
   Motion<Real> now = motion_of<Real>(start);
   for (int n = 0; n < steps; ++n) {
-    const auto k1 = slope(now), k2 = slope(moved(now, h / 2, k1)), k3 = slope(moved(now, h / 2, k2)),
-               k4 = slope(moved(now, h, k3));
+    const Real t = n * h;
+    const auto k1 = slope(now, t), k2 = slope(moved(now, h / 2, k1), t + h / 2),
+               k3 = slope(moved(now, h / 2, k2), t + h / 2), k4 = slope(moved(now, h, k3), t + h);
     now.x += h / 6 * (k1.x + 2 * k2.x + 2 * k3.x + k4.x);
     now.v += h / 6 * (k1.v + 2 * k2.v + 2 * k3.v + k4.v);
   }

@@ -128,6 +128,16 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Model& m) {
                   for (SpringClass& s : m.spring_classes) s.stiffness *= 0.98;
                 }},
+        Planted{"actuation/expansion/all", "an amplitude 1e-6 larger",
+                [](Model& m) { m.actuation.actuators[0].amplitude += 1e-6; }},
+        Planted{"actuation/bimorph", "an amplitude a twentieth larger",
+                [](Model& m) { m.actuation.actuators[0].amplitude *= 1.05; }},
+        Planted{"actuation/order/midpoint", "a signal that begins a little late",
+                [](Model& m) { m.actuation.actuators[0].start = 1e-5; }},
+        Planted{"voxels/bending/3", "stiffness 2 % more",
+                [](Model& m) {
+                  for (SpringClass& s : m.spring_classes) s.stiffness *= 1.02;
+                }},
         Planted{"voxels/free-fall/midpoint", "a body force", [](Model& m) { m.simulation.gravity.x = 1e-9; }},
         Planted{"rest/symplectic-euler", "no ground", [](Model& m) { m.terrain.clear(); }},
         Planted{"implicit/dense", "tolerance 1e-4", [](Model& m) { m.simulation.implicit.tolerance = 1e-4; }},
