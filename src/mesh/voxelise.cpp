@@ -118,7 +118,8 @@ Result<VoxelisedMesh> voxelise(const TriangleMesh& mesh, const VoxelisationSetti
              "or it "
              "encloses nothing ({} of its edges are rims of holes)",
              who, made.grid.cells[0], made.grid.cells[1], made.grid.cells[2], made.grid.size, r.open_edges),
-        {advice("use more cells"), advice("close the mesh's holes")});
+        {advice("use more cells"), advice("close the mesh's holes"),
+         advice("make a sheet of it, [[cloth]], if it is one")});
   auto pieces = keep_pieces(made.grid, settings.pieces);
   if (!pieces) return fail(pieces.error(), "{}: {}", who, pieces.error().what);
   made.report.pieces = std::move(*pieces);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/suggestion.h"
+
 namespace aspic {
 
 const MaterialSettings* find_material(const ModelSettings& settings, std::string_view name) {
@@ -20,8 +22,8 @@ std::string unknown_material(const ModelSettings& settings, std::string_view nam
   if (names.empty())
     return fmt::format("the material \"{0}\", and the scene has none: add a [[material]] with name = \"{0}\"",
                        name);
-  return fmt::format("the material \"{}\", which the scene does not have; it has {}", name,
-                     fmt::join(names, ", "));
+  return fmt::format("the material \"{}\", which the scene does not have; it has {}{}", name,
+                     fmt::join(names, ", "), diagnostics::did_you_mean(diagnostics::nearest(name, names)));
 }
 
 Result<MaterialSettings> material_of(const ModelSettings& settings, const MaterialSettings& of_body) {

@@ -76,6 +76,14 @@ Result<std::vector<std::string>> mesh_into(Reader& reader, std::size_t index, co
   return take_mesh(voxels, file, how, path);
 }
 
+/// What is wrong with a mesh; of a word that is no path, also which words there are.
+std::string said_of(const Error& error, const std::string& name, const std::vector<std::string>& builtin) {
+  if (error.code != ErrorCode::io || name.find_first_of("/\\.") != std::string::npos) return error.message();
+  const std::vector<std::string_view> words(builtin.begin(), builtin.end());
+  return fmt::format("{} Built in: {}{}", error.message(), diagnostics::list_text(words, false),
+                     diagnostics::did_you_mean(diagnostics::nearest(name, words)));
+}
+
 }  // namespace
 
 void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources,
@@ -99,7 +107,7 @@ void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources
     const bool is_builtin = std::ranges::find(builtin, name) != builtin.end();
     const auto taken = mesh_into(reader, i, is_builtin ? name : (folder / name).string());
     if (!taken)
-      reader.blame(path, fmt::format("'voxels.mesh': {}", taken.error().message()));
+      reader.blame(path, fmt::format("'voxels.mesh': {}", said_of(taken.error(), name, builtin)));
     else if (notes)
       for (const std::string& note : *taken)
         notes->push_back(fmt::format("{}: {}", printable_line(name), note));

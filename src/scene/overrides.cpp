@@ -18,7 +18,8 @@ using diagnostics::Position;
 using diagnostics::Problem;
 using reader::Reader;
 
-/// One part of a key: `cube[0]` is name cube, index 0; `material[fat]` the material of that name.
+/// One part of a key: `cube[0]` is name cube, index 0; `material[fat]` the material of that name; `cube[+]` a
+/// further cube.
 struct Segment {
   std::string name;
   std::optional<std::size_t> index;
@@ -276,6 +277,7 @@ class Argument {
     if (written != reader_.written().end() && written->second.problem) return {};  // reported there
     const SettingsList& list = *std::ranges::find(settings_lists(), segment.name, &SettingsList::key);
     const std::size_t count = list.size(reader_.scene().model);
+    if (segment.element == "+") return further_element(list, segment);
     if (!segment.element.empty()) return named_element(segment);
     if (!segment.index) {
       fail(segment.column, fmt::format("'{}' is a list and needs an index; did you mean '{}'?", segment.name,
@@ -289,6 +291,14 @@ class Argument {
       return segment.index;
     }
     return {};
+  }
+
+  /// A new element at the end of the list, with default values.
+  std::size_t further_element(const SettingsList& list, const Segment& segment) {
+    const std::size_t index = list.size(reader_.scene().model);
+    list.append(reader_.scene().model);
+    reader_.enter(fmt::format("{}[]", list.key), index, {source_, 1, segment.column});
+    return index;
   }
 
   std::optional<std::size_t> named_element(const Segment& segment) {

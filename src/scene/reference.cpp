@@ -82,6 +82,7 @@ std::string scene_reference(std::string_view option) {
       "contact.model=course`,\n"
       "`{0} 'cube[0].pinned=[\"top\", 3]'`. A value is written as in the file; a single word needs no "
       "quotation marks.\n"
+      "`[+]` in the place of an index adds an element: `{0} 'ball[+]={{ radius = 0.2 }}'`.\n"
       "A key marked *live* may change while a simulation runs; changing any other restarts it.\n\n"
       "A part that is not in the file is not in the scene: without `[[cube]]` there is no cube. Inner tables "
       "may be written\n"

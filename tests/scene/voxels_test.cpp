@@ -67,6 +67,26 @@ TEST(VoxelScene, ArgumentsNameElements) {
               HasSubstr("an index is a whole number from 0 in brackets"));
 }
 
+TEST(VoxelScene, ArgumentsAddElements) {
+  const Scene scene = test::parsed(
+      worm, {"material[+]={ name = \"bone\", youngs-modulus = 1e6 }",
+             "voxels[+]={ name = \"limb\", material = \"bone\", layers = [[\"11\"]], position = [9, 9, 9] }",
+             "voxels[limb].size=0.25", "cube[+].edge-length=3", "cube[0].position=[20, 0, 0]"});
+  ASSERT_EQ(scene.model.voxels.size(), 2u);
+  EXPECT_EQ(scene.model.voxels[1].material.name, "bone");
+  EXPECT_EQ(scene.model.voxels[1].size, 0.25);
+  ASSERT_EQ(scene.model.cubes.size(), 1u);
+  EXPECT_EQ(scene.model.cubes[0].edge_length, 3.0);
+  const auto further = with_overrides(scene, std::vector<std::string>{"voxels[+]={ name = \"worm\" }"});
+  ASSERT_FALSE(further.ok());
+  EXPECT_THAT(further.error().what, StartsWith("voxels[+]={ name = \"worm\" }: "));
+  EXPECT_THAT(further.error().what, HasSubstr("\"worm\" is taken"));
+  EXPECT_THAT(test::rejection(worm, {"cub[+]={}"}), HasSubstr("did you mean 'cube'?"));
+  EXPECT_THAT(test::rejection(worm, {"cube[+]=3"}), HasSubstr("give { key = value }"));
+  EXPECT_THAT(test::rejection(worm, {"cube[+]={ edge-length = -1 }"}), HasSubstr("out of range"));
+  EXPECT_THAT(test::rejection(worm, {"simulation[+]={}"}), HasSubstr("takes no index"));
+}
+
 TEST(VoxelScene, ErrorsPointAtTheirPlaceAndSayTheWayOut) {
   const auto body = [](const std::string& keys) { return materials + "[[voxels]]\n" + keys; };
   const std::tuple<std::string, std::string, std::string> cases[] = {
@@ -74,7 +94,8 @@ TEST(VoxelScene, ErrorsPointAtTheirPlaceAndSayTheWayOut) {
        "scene.toml:6:19: ", "layer 1 has 2 rows and layer 0 has 1"},
       {body("layers = [[\"1.1\"]]\n"), "scene.toml:6:10: ", "write pieces = \"largest\""},
       {body("layers = [[\"...\"]]\n"), "scene.toml:6:10: ", "the body is empty"},
-      {body("palette = { 1 = \"mussle\" }\n"), "scene.toml:6:11: ", "it has fat, muscle"},
+      {body("palette = { 1 = \"mussle\" }\n"),
+       "scene.toml:6:11: ", "it has fat, muscle; did you mean 'muscle'?"},
       {body("palette = { 1 = \"fat\" }\nlayers = [[\"12\"]]\n"),
        "scene.toml:7:11: ", "a cell '2', which 'palette'"},
       {body("material = \"wood\"\n"), "scene.toml:6:12: ", "\"wood\", which the scene does not have"},
