@@ -45,18 +45,23 @@ struct DrawSettings {
 };
 
 /// What the colours of bodies mean.
-enum class ViewColour { material, type, strain, force, speed, signed_strain, energy };
+enum class ViewColour { material, type, strain, force, speed, signed_strain, energy, actuation };
 
 /// Every one, in the order in which they are listed for users.
 inline constexpr Named<ViewColour> view_colours[] = {
     {ViewColour::material, "material"}, {ViewColour::type, "type"},
     {ViewColour::strain, "strain"},     {ViewColour::signed_strain, "signed-strain"},
     {ViewColour::force, "force"},       {ViewColour::energy, "energy"},
-    {ViewColour::speed, "speed"}};
+    {ViewColour::speed, "speed"},       {ViewColour::actuation, "actuation"}};
 
 /// Whether a colour shows a number, on a scale.
 inline bool has_scale(ViewColour colour) {
   return colour >= ViewColour::strain;
+}
+
+/// Whether such a number may be negative.
+inline bool has_sign(ViewColour colour) {
+  return colour == ViewColour::signed_strain || colour == ViewColour::actuation;
 }
 
 /// Colours of a scale.

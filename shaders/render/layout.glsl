@@ -82,6 +82,7 @@
 #define COLOUR_SPEED 4u
 #define COLOUR_SIGNED_STRAIN 5u
 #define COLOUR_ENERGY 6u
+#define COLOUR_ACTUATION 7u
 
 // Places in the list of extremes of what colours show: least and largest, as ordered() integers.
 #define EXTREMES_BODIES 0

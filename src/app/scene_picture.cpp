@@ -160,6 +160,7 @@ Result<PictureOptions> ScenePicture::options_of(const Content& content, bool leg
   if (!ghost)
     arrows_ = arrows_of(simulation_.model(), shown_state(), options.view.arrows, simulation_.inputs());
   options.arrows = arrows_;
+  options.channels = simulation_.inputs().channels;
   options.highlight = content.marks;
   return options;
 }

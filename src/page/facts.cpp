@@ -73,7 +73,7 @@ Json terrain_facts(const Terrain& terrain) {
 Json ranges_of(const Model& model, const ViewSettings& view) {
   Json ranges;
   for (const auto& [colour, name] : view_colours) {
-    if (!has_scale(colour)) continue;
+    if (!has_scale(colour) || (colour == ViewColour::actuation && model.actuation.empty())) continue;
     // The scene's own ends are of the colour that it chose.
     QuantityRange range = default_range(model, colour);
     if (colour == view.colour && view.scale.range == ScaleRange::fixed) range = range_for(model, view, range);
@@ -98,7 +98,7 @@ Quanta quanta_of(const Model& model) {
   for (const Ball& ball : model.balls) radius = std::min(radius, ball.radius);
   const double share = finest(model);
   const auto quantum = [&](double length) { return std::isfinite(length) ? share * length : share; };
-  return {quantum(spacing), quantum(radius), 1.0 / 256.0};
+  return {quantum(spacing), quantum(radius), 1.0 / 256.0, 1.0 / 8192.0};
 }
 
 Json run_facts(const Scene& scene, const Model& model, const std::string& name, std::size_t number) {
@@ -121,6 +121,8 @@ Json run_facts(const Scene& scene, const Model& model, const std::string& name, 
     directions.push_back({d.di, d.dj, d.dk, d.spring_class});
   double spacing = std::numeric_limits<double>::infinity();
   for (const SpringClass& s : model.spring_classes) spacing = std::min(spacing, s.rest_length);
+  Json actuated = Json::array();
+  for (const ActuatedClass& c : model.actuation.classes) actuated.push_back(c.spring_class);
   Json facts = {{"name", name},
                 {"number", number},
                 {"timestep", model.simulation.timestep},
@@ -133,6 +135,8 @@ Json run_facts(const Scene& scene, const Model& model, const std::string& name, 
                 {"spinQuantum", quanta.spin},
                 {"spacing", std::isfinite(spacing) ? spacing : 1.0},
                 {"classes", classes},
+                {"actuated", actuated},
+                {"changeQuantum", quanta.change},
                 {"directions", directions},
                 {"bodies", bodies},
                 {"balls", balls},
@@ -175,6 +179,17 @@ Json view_facts(const Scene& scene) {
   facts["springColours"] = types;
   facts["neutral"] = neutral_body_colour();
   return facts;
+}
+
+std::vector<Vec3> changes_of(const Model& model, std::uint64_t step) {
+  const std::vector<double> lengths = rest_lengths(model, step, 0.0, {});
+  const std::vector<ActuatedClass>& classes = model.actuation.classes;
+  std::vector<Vec3> changes(change_vectors(model));
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const std::uint32_t c = classes[i].spring_class;
+    changes[i / 3][static_cast<int>(i % 3)] = lengths[c] / model.spring_classes[c].rest_length - 1.0;
+  }
+  return changes;
 }
 
 void append_shapes(const Model& model, std::string& bytes) {

@@ -1,7 +1,9 @@
 #pragma once
 // What a page says of a run besides its pictures, as JSON, and the shapes that its terrain is drawn with.
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "aspic/scene.h"
 #include "model/model.h"
@@ -17,6 +19,7 @@ struct Quanta {
                           ///< than 10,000 particles
   double ball_position = 0.0;  ///< [m]: the same share of the smallest radius
   double spin = 0.0;           ///< of angular velocities [rad/s]: 1/256
+  double change = 0.0;         ///< of r/r₀ − 1 of actuated springs: 1/8192
 };
 Quanta quanta_of(const Model& model);
 
@@ -26,6 +29,13 @@ Json run_facts(const Scene& scene, const Model& model, const std::string& name, 
 
 /// The view's camera and what it shows, and the colours of its scales.
 Json view_facts(const Scene& scene);
+
+/// r/r₀ − 1 of the actuated classes at a step, three to a vector, with inputs of 0.
+std::vector<Vec3> changes_of(const Model& model, std::uint64_t step);
+/// How many vectors that are.
+inline std::size_t change_vectors(const Model& model) {
+  return (model.actuation.classes.size() + 2) / 3;
+}
 
 /// Appends what run_facts() counts: the listed springs (all first ends, then second ends, each as its
 /// difference from the one before, then classes), of each body the quads of its surface (all first corners,

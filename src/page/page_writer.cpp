@@ -113,6 +113,7 @@ Status PageWriter::begin(const PageSettings& settings, std::span<const PageRun> 
     tracks_.push_back({Track(model.particle_count(), quanta.position),
                        Track(model.ball_count(), quanta.ball_position),
                        Track(model.ball_count(), quanta.spin),
+                       Track(change_vectors(model), quanta.change),
                        {},
                        {},
                        {},
@@ -145,6 +146,7 @@ Status PageWriter::add(std::span<const State* const> states) {
     tracks.particles.append(state.position, bytes);
     tracks.balls.append(state.ball_position, bytes);
     tracks.spins.append(state.ball_angular_velocity, bytes);
+    if (!models_[i]->actuation.empty()) tracks.changes.append(changes_of(*models_[i], state.step), bytes);
   }
   return pack(deflater_.add(bytes), false);
 }

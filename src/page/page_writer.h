@@ -69,7 +69,7 @@ class PageWriter {
 
  private:
   struct Tracks {
-    Track particles, balls, spins;
+    Track particles, balls, spins, changes;
     std::vector<double> kinetic, elastic, gravitational;  // [J], by picture
     std::vector<std::uint64_t> steps;
     std::vector<std::string> hashes = {};  // of a live page

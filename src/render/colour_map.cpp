@@ -98,7 +98,7 @@ std::vector<std::byte> colour_map_texels(ScaleMap map) {
 
 ScaleMap chosen_map(const ViewSettings& view) {
   if (view.scale.map != ScaleMap::automatic) return view.scale.map;
-  return view.colour == ViewColour::signed_strain ? ScaleMap::blue_red : ScaleMap::violet_yellow;
+  return has_sign(view.colour) ? ScaleMap::blue_red : ScaleMap::violet_yellow;
 }
 
 Colour spring_colour(SpringType type) {

@@ -73,7 +73,7 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
     const Geometry<double> ball = terrain_at(t, model.simulation.timestep, content.step).geometry;
     block.shadow_spheres[block.shadow_sphere_count++] = glm::vec4(to_glm(ball.vectors[0]), ball.numbers[0]);
   }
-  static_assert(COLOUR_ENERGY == static_cast<std::uint32_t>(ViewColour::energy));
+  static_assert(COLOUR_ACTUATION == static_cast<std::uint32_t>(ViewColour::actuation));
   block.colour_mode = static_cast<std::uint32_t>(content.view.colour);
   block.particle_count = model.particle_count();
   block.cut = glm::vec4(0, 0, 0, 1);

@@ -9,6 +9,7 @@
 #include "device/particles.h"
 #include "gpu/loop_bound.h"
 #include "gpu/pass.h"
+#include "model/actuation.h"
 #include "model/springs.h"
 #include "render/software_rasteriser.h"
 
@@ -115,18 +116,6 @@ Status ModelBuffers::prepare_lines(gl::Context& context, const Model& model) {
   return {};
 }
 
-void ModelBuffers::follow_signals(const Model& model, const DeviceState& state) {
-  const std::vector<double> lengths = rest_lengths(model, state.step, 0.0, state.channels);
-  std::vector<layout::SpringClass> classes;
-  for (std::size_t c = 0; c < lengths.size(); ++c) {
-    SpringClass now = model.spring_classes[c];
-    now.rest_length = lengths[c];
-    classes.push_back(rounded(now));
-    if (c < springs_.size()) springs_[c].constants.rest_length = lengths[c];
-  }
-  spring_classes_.upload_items(classes);
-}
-
 Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, const DeviceState& state) {
   if (spring_classes_.id() == 0) {
     ASPIC_CHECK(gl::check_loop("quantity", "the springs of one particle", highest_degree(model)));
@@ -134,7 +123,6 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
     for (const SpringClass& c : model.spring_classes) classes.push_back(rounded(c));
     ASPIC_TRY(spring_classes_, gl::Buffer::of(context, "spring classes", classes));
   }
-  if (!model.actuation.empty()) follow_signals(model, state);
   if (has_neighbours(state))
     return gl::Buffer::check_size(context, "incident springs", state.springs->incident.bytes());
   if (own_springs_) return {};
@@ -143,6 +131,23 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
                                                                   : IncidentWords::neighbours,
                                               gl::BufferKind::storage));
   return {};
+}
+
+void ModelBuffers::set_rest_lengths(const Model& model, std::uint64_t step, std::span<const double> channels,
+                                    bool actuation) {
+  // Once it was shown the dampings have to come back.
+  if (model.actuation.empty() && !actuation && !shows_actuation_) return;
+  shows_actuation_ = actuation;
+  const std::vector<double> lengths = rest_lengths(model, step, 0.0, channels);
+  std::vector<layout::SpringClass> classes;
+  for (std::size_t c = 0; c < lengths.size(); ++c) {
+    SpringClass now = model.spring_classes[c];
+    if (actuation) now.damping = now.rest_length;
+    now.rest_length = lengths[c];
+    classes.push_back(rounded(now));
+    if (c < springs_.size()) springs_[c].constants = now;
+  }
+  if (spring_classes_.id() != 0) spring_classes_.upload_items(std::span<const layout::SpringClass>(classes));
 }
 
 void ModelBuffers::compute_skin(const RenderPrograms& programs, const gl::Buffer& particles) {

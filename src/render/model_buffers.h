@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/result.h"
@@ -41,8 +42,11 @@ class ModelBuffers {
   /// What colours by strain or force need: a particle's springs, those of `state` where it has them. Errors:
   /// as make_spring_buffers; no_device (more springs at one particle than a kernel may loop over).
   Status prepare_incident(gl::Context& context, const Model& model, const DeviceState& state);
-  /// Constants of springs have the rest lengths of the state's time; prepare_incident() calls it.
-  void follow_signals(const Model& model, const DeviceState& state);
+  /// Gives springs their rest lengths at a step, with these numbers in the inputs' channels, and in the place
+  /// of their damping those without actuation where a colour shows `actuation`. After both of the above; does
+  /// nothing where no rest length changes and none is shown.
+  void set_rest_lengths(const Model& model, std::uint64_t step, std::span<const double> channels,
+                        bool actuation);
 
   /// The vertices of the skin at these particles' positions, with what compute_quantity() found before.
   void compute_skin(const RenderPrograms& programs, const gl::Buffer& particles);
@@ -105,7 +109,7 @@ class ModelBuffers {
   std::uint32_t particle_count_ = 0, skin_vertices_ = 0, mesh_vertices_ = 0, class_bits_ = 0;
   double spacing_ = 1.0;
   std::vector<Surface::Part> parts_, coarse_parts_;
-  bool coarse_ = false, lines_ready_ = false;
+  bool coarse_ = false, lines_ready_ = false, shows_actuation_ = false;
   std::optional<BallBuffers> balls_;
   DeviceMesh rods_;
   std::vector<SpringRun> springs_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/actuation.h"
 #include "model/terrain.h"
 #include "render/light_maps.h"
 #include "render/overlay_text.h"
@@ -28,11 +29,13 @@ struct ScaleWords {
   std::string_view title, unit;
   double unit_size;
 };
-constexpr ScaleWords scales[] = {{ViewColour::strain, "strain of the springs", " %", 0.01},
-                                 {ViewColour::signed_strain, "strain: − shortened, + stretched", " %", 0.01},
-                                 {ViewColour::force, "force of the springs", " N", 1.0},
-                                 {ViewColour::energy, "energy of the springs", " J", 1.0},
-                                 {ViewColour::speed, "speed", " m/s", 1.0}};
+constexpr ScaleWords scales[] = {
+    {ViewColour::strain, "strain of the springs", " %", 0.01},
+    {ViewColour::signed_strain, "strain: − shortened, + stretched", " %", 0.01},
+    {ViewColour::force, "force of the springs", " N", 1.0},
+    {ViewColour::energy, "energy of the springs", " J", 1.0},
+    {ViewColour::speed, "speed", " m/s", 1.0},
+    {ViewColour::actuation, "rest lengths: − shortened, + stretched", " %", 0.01}};
 
 Legend scale(const ScaleWords& words, const ViewSettings& view, const QuantityRange& range) {
   Legend legend;
@@ -46,9 +49,20 @@ Legend scale(const ScaleWords& words, const ViewSettings& view, const QuantityRa
   // Values past an end take its colour.
   const std::size_t low = range[1] < range[0] ? 1 : 0, high = 1 - low;
   legend.marks[2 * high] = "≥ " + legend.marks[2 * high];
-  if (range[low] != 0.0 || view.colour == ViewColour::signed_strain)
-    legend.marks[2 * low] = "≤ " + legend.marks[2 * low];
+  if (range[low] != 0.0 || has_sign(view.colour)) legend.marks[2 * low] = "≤ " + legend.marks[2 * low];
   return legend;
+}
+
+/// As far as actuators change any rest length, both ways; a tenth where there are none.
+QuantityRange actuation_range(const Model& model) {
+  double most = 0.0;
+  const std::vector<LengthRange> ranges = rest_length_ranges(model);
+  for (std::size_t c = 0; c < ranges.size(); ++c) {
+    const double rest = model.spring_classes[c].rest_length;
+    most = std::max({most, ranges[c].most / rest - 1.0, 1.0 - ranges[c].least / rest});
+  }
+  const double end = most > 1e-9 ? round_up(most) : 0.1;
+  return {-end, end};
 }
 
 /// The smallest round ends that hold both numbers, low < high.
@@ -71,6 +85,7 @@ double round_up(double value) {
 QuantityRange default_range(const Model& model, ViewColour colour) {
   if (colour == ViewColour::strain) return {0.0, 0.2};
   if (colour == ViewColour::signed_strain) return {-0.1, 0.1};
+  if (colour == ViewColour::actuation) return actuation_range(model);
   double largest = colour == ViewColour::energy ? 1e-3 : 1.0;
   if (colour == ViewColour::speed) {
     largest = std::max(largest, std::sqrt(2.0 * length(model.simulation.gravity) * fall_height(model)));

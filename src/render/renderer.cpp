@@ -163,6 +163,7 @@ Status Renderer::Parts::start(int width, int height, const DeviceState& state,
   if (has(SurfaceStyle::cords) || draws_springs(drawn_springs(view)))
     ASPIC_CHECK(buffers->prepare_lines(*context, *model));
   if (shows_springs(view.colour)) ASPIC_CHECK(buffers->prepare_incident(*context, *model, state));
+  buffers->set_rest_lengths(*model, state.step, options.channels, view.colour == ViewColour::actuation);
   buffers->use_coarse_skin(options.coarse_skin && !view.cut.on());
   const Camera camera(view.camera, width, height);
   if (!options.ball_turns.empty()) buffers->set_ball_turns(options.ball_turns, state.step);
@@ -258,13 +259,15 @@ PickAnswer Renderer::picked() const {
   return parts_->picker && here.status() ? parts_->picker->answer() : PickAnswer{};
 }
 
-Result<QuantityRange> Renderer::range_of(const DeviceState& state, const ViewSettings& view) {
+Result<QuantityRange> Renderer::range_of(const DeviceState& state, const ViewSettings& view,
+                                         std::span<const double> channels) {
   Parts& p = *parts_;
   const gl::Current here(*p.context);
   ASPIC_CHECK(here.status());
   const QuantityRange alone = range_for(*p.model, view, {});
   if (!follows_picture(view)) return alone;
   if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
+  p.buffers->set_rest_lengths(*p.model, state.step, channels, view.colour == ViewColour::actuation);
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
   const FrameContent content = {view, alone, p.has(SurfaceStyle::flesh), false, state.step, 0.0f};
   p.bind_frame(frame_block(*p.model, Camera(view.camera, 1, 1), 1, 1, content));

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "aspic/scene.h"
@@ -44,19 +45,20 @@ struct TurnedBalls {
 /// What a picture shows besides the particles.
 struct PictureOptions {
   ViewSettings view;
-  std::vector<OverlayLine> text;              ///< empty: no panel
-  int text_height = 0;                        ///< [pixels], at most 256; 0: a share of the picture's height
-  bool legend = true;                         ///< of colours, where they mean something
-  std::optional<Colour> background;           ///< instead of terrain and sky, linear light; its alpha is 0
-  bool shadows = true;                        ///< on terrain; without them light maps are left out
-  int samples = 0;                            ///< per pixel, at most the renderer's; 0: those
-  bool coarse_skin = false;                   ///< fewer triangles for large bodies: for software rasterisers
-  std::optional<QuantityRange> range;         ///< ends of the scale of colours; absent: the view's
-  std::optional<Colour> tint;                 ///< of bodies coloured by material, instead of their own
-  ArrowSet arrows;                            ///< of those that the view asks for
-  bool steady = false;                        ///< the next picture has this camera: a backdrop is worth it
-  std::vector<BallTurn> ball_turns;           ///< of each ball; empty: by the pictures drawn before
-  bool axes = true;                           ///< in a corner, where the view asks for them
+  std::vector<OverlayLine> text;       ///< empty: no panel
+  int text_height = 0;                 ///< [pixels], at most 256; 0: a share of the picture's height
+  bool legend = true;                  ///< of colours, where they mean something
+  std::optional<Colour> background;    ///< instead of terrain and sky, linear light; its alpha is 0
+  bool shadows = true;                 ///< on terrain; without them light maps are left out
+  int samples = 0;                     ///< per pixel, at most the renderer's; 0: those
+  bool coarse_skin = false;            ///< fewer triangles for large bodies: for software rasterisers
+  std::optional<QuantityRange> range;  ///< ends of the scale of colours; absent: the view's
+  std::optional<Colour> tint;          ///< of bodies coloured by material, instead of their own
+  ArrowSet arrows;                     ///< of those that the view asks for
+  bool steady = false;                 ///< the next picture has this camera: a backdrop is worth it
+  std::vector<double> channels;        ///< of the inputs (Inputs::channels): signals that rest lengths follow
+  std::vector<BallTurn> ball_turns;    ///< of each ball; empty: by the pictures drawn before
+  bool axes = true;                    ///< in a corner, where the view asks for them
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };
 
@@ -115,7 +117,9 @@ class Renderer {
 
   /// The ends that a view's colour scale would have in a picture of this state of the model. Waits for the
   /// device where they follow the picture. Legal after set_model. Errors: those of draw().
-  Result<QuantityRange> range_of(const DeviceState& state, const ViewSettings& view);
+  /// `channels`: as PictureOptions has them.
+  Result<QuantityRange> range_of(const DeviceState& state, const ViewSettings& view,
+                                 std::span<const double> channels = {});
 
   /// The ends of the colour scale of the picture last drawn. Legal after draw().
   QuantityRange range() const;

@@ -73,6 +73,7 @@ ShownRun ComparisonRecorder::shown(const Part& part, const std::optional<Diverge
   shown.legend = output_.text && (own_scale || &part == &parts_.back());
   if (view.arrows.any())
     shown.arrows = arrows_of(model, part.copy, view.arrows, part.run.backend->solver->inputs());
+  shown.channels = part.run.backend->solver->inputs().channels;
   shown.text_height = comparison_text_height(output_.size.height, parts_.size());
   if (output_.text) {
     shown.text = comparison_text(part.run.name, part.number, static_cast<double>(*part.step) * timestep,

@@ -118,6 +118,7 @@ void request_items(Items& items, Request& request) {
     items(shown.arrows.room);
     items(shown.arrows.noise);
     items(shown.ball_turns);
+    items(shown.channels);
   });
 }
 

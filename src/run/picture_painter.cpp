@@ -43,7 +43,7 @@ Status PicturePainter::draw(const std::vector<DeviceState>& states, const std::v
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (part.step == states[i].step) continue;
-    ASPIC_TRY(part.own_range, part.renderer->range_of(states[i], part.run.scene->view));
+    ASPIC_TRY(part.own_range, part.renderer->range_of(states[i], part.run.scene->view, shown[i].channels));
     part.step = states[i].step;
     part.drawn_range.reset();
   }
@@ -77,6 +77,7 @@ Status PicturePainter::draw_part(Part& part, int width, int height, const Device
   options.tint = shown.tint;
   options.arrows = shown.arrows;
   options.ball_turns = shown.ball_turns;
+  options.channels = shown.channels;
   options.range = range;
   return part.renderer->draw(width, height, state, options);
 }

@@ -33,6 +33,7 @@ struct ShownRun {
   bool framed = false;              ///< in the run's colour, where there are several runs
   ArrowSet arrows;
   std::vector<BallTurn> ball_turns;  ///< as PictureOptions::ball_turns
+  std::vector<double> channels;      ///< as PictureOptions::channels
 };
 
 /// Draws pictures of one size, which one to most_compared runs share. The context must outlive it; every call

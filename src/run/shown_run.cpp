@@ -17,6 +17,7 @@ ShownRun shown_run(const Scene& scene, const Following& following, const Solver&
   ShownRun shown;
   shown.camera = fitted(moved(view.camera, following.offset(model, copy)), wish.size.width, wish.size.height);
   shown.legend = wish.text;
+  shown.channels = solver.inputs().channels;
   if (view.arrows.any()) shown.arrows = arrows_of(model, copy, view.arrows, solver.inputs());
   if (wish.text) shown.text = overlay_lines(scene, static_cast<double>(step) * model.simulation.timestep);
   return shown;

@@ -105,7 +105,7 @@ ReadPage read_page(const std::string& html) {
     return page;
   }
   Numbers numbers(inflated(from_base64(element(html, "data")), page.error));
-  std::vector<std::array<Places, 3>> runs;
+  std::vector<std::array<Places, 4>> runs;
   for (const auto& run : page.facts["runs"]) {
     for (int i = 0; i < 3; ++i) numbers.next(run["listed"]);
     for (const auto& body : run["bodies"]) {
@@ -122,7 +122,8 @@ ReadPage read_page(const std::string& html) {
         numbers.next(surface["side"].get<std::size_t>() * surface["side"].get<std::size_t>());
     }
     runs.push_back({Places{run["particles"], run["quantum"]}, Places{run["balls"].size(), run["ballQuantum"]},
-                    Places{run["balls"].size(), run["spinQuantum"]}});
+                    Places{run["balls"].size(), run["spinQuantum"]},
+                    Places{(run["actuated"].size() + 2) / 3, run["changeQuantum"]}});
   }
   if (page.facts.contains("live")) {
     page.start = numbers.rest();
@@ -130,11 +131,12 @@ ReadPage read_page(const std::string& html) {
   }
   while (page.error.empty() && !numbers.complete()) {
     std::vector<ReadPicture> picture;
-    for (auto& [particles, balls, spins] : runs) {
+    for (auto& [particles, balls, spins, changes] : runs) {
       ReadPicture read;
       read.particles = particles.next(numbers);
       read.balls = balls.next(numbers);
       read.spins = spins.next(numbers);
+      if (changes.count > 0) read.changes = changes.next(numbers);
       picture.push_back(std::move(read));
     }
     page.pictures.push_back(std::move(picture));

@@ -11,7 +11,7 @@ namespace aspic::test {
 
 /// One picture of one run.
 struct ReadPicture {
-  std::vector<Vec3> particles, balls, spins;
+  std::vector<Vec3> particles, balls, spins, changes;
 };
 
 struct ReadPage {

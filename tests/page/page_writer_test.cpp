@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "aspic/scene.h"
 #include "base/files.h"
 #include "cpu_reference/reference_solver.h"
+#include "page/facts.h"
 #include "page/page_reader.h"
 #include "support/temporary_directory.h"
 
@@ -69,10 +71,23 @@ struct PageTest : testing::Test {
       EXPECT_LE(farthest(picture.balls, state.ball_position), 0.5000001 * facts["ballQuantum"].get<double>());
       EXPECT_LE(farthest(picture.spins, state.ball_angular_velocity),
                 0.5000001 * facts["spinQuantum"].get<double>());
+      if (!facts["actuated"].empty()) {
+        EXPECT_LE(farthest(picture.changes, changes_of(kept.model, steps[f])),
+                  0.5000001 * facts["changeQuantum"].get<double>());
+      }
     }
   }
   test::TemporaryDirectory dir;
 };
+
+TEST_F(PageTest, HoldsRestLengthsOfActuatedSprings) {
+  const Kept run("worm", {}, 100);
+  const test::ReadPage page = test::read_page(page_of(run));
+  expect_near(page, 0, run);
+  EXPECT_GT(page.facts["runs"][0]["actuated"].size(), 10u);
+  EXPECT_TRUE(page.facts["runs"][0]["ranges"].contains("actuation"));
+  EXPECT_FALSE(page.pictures.back()[0].changes.empty());
+}
 
 TEST_F(PageTest, HoldsEveryPictureOfAFilmWithinHalfAQuantum) {
   const Kept run(

@@ -110,6 +110,42 @@ TEST_F(Scale, SpeedsOfBallsCount) {
                                           {static_cast<double>(1.9f), static_cast<double>(7.3f)}));
 }
 
+TEST_F(Scale, ActuationIsBlueWhereRestLengthsAreShortAndRedWhereTheyAreLong) {
+  ModelSettings settings;
+  settings.simulation.gravity = {};
+  settings.cubes.emplace_back().particles_per_edge = 4;
+  settings.cubes[0].position = {};
+  settings.actuators.emplace_back().amplitude = 0.15;
+  settings.actuators[0].signal = Signal::input;
+  const Model model = test::build(settings);
+  EXPECT_EQ(default_range(model, ViewColour::actuation), (QuantityRange{-0.2, 0.2}));
+  const State state = initial_state(model, Precision::single);
+  const auto shown = [&](double w, ViewColour colour) {
+    PictureOptions options = coloured(colour, ScaleRange::automatic);
+    options.channels = {w};
+    (void)draw(model, state, options, width, height);
+    return renderer().range();
+  };
+  for (const double w : {1.0, -1.0, 0.5}) {
+    const auto [low, high] = shown(w, ViewColour::actuation);
+    EXPECT_LT(low, 0.15 * w);
+    EXPECT_GT(high, 0.15 * w);
+    EXPECT_LT(high - low, 1e-3);
+  }
+  const auto redness = [&](double w) {
+    PictureOptions options = coloured(ViewColour::actuation, ScaleRange::fixed);
+    options.channels = {w};
+    const test::Image image = draw(model, state, options, width, height);
+    return image.channel(width / 2, height / 2, 0) - image.channel(width / 2, height / 2, 2);
+  };
+  EXPECT_GT(redness(1.0), redness(0.0) + 40);
+  EXPECT_LT(redness(-1.0), redness(0.0) - 40);
+  // Springs that are not stretched have the strain of their present rest lengths, and their damping again.
+  const auto [low, high] = shown(1.0, ViewColour::signed_strain);
+  EXPECT_LT(low, -0.12);
+  EXPECT_LT(high, 0.0);
+}
+
 TEST_F(Scale, SignedStrainIsBlueWhereShortAndRedWhereLong) {
   const Model model = lonely_cube();
   const auto redness = [&](double by) {

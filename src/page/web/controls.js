@@ -4,9 +4,11 @@ const $ = (id) => document.getElementById(id);
 // What colours mean: title of the legend, unit, and how many SI units one of it is.
 const quantities = {
   strain: ["strain of the springs", " %", 0.01], "signed-strain": ["strain: − shortened, + stretched", " %", 0.01],
+  actuation: ["rest lengths: − shortened, + stretched", " %", 0.01],
   speed: ["speed", " m/s", 1], force: ["force of the springs", " N", 1], energy: ["energy of the springs", " J", 1],
 };
-const colours = ["material", ...Object.keys(quantities), "type"];
+const colours = ["material", ...Object.keys(quantities).filter((colour) => colour !== "actuation"), "type", "actuation"];
+const hasSign = (colour) => colour === "signed-strain" || colour === "actuation";
 
 // Drags of one finger or the mouse orbit, those of two fingers or with Shift or the right button pan, pinches and the wheel zoom.
 function watchPointers(canvas, camera, changed) {

@@ -79,10 +79,11 @@ class Track {
 // One run: its facts, its shapes, and its pictures as far as they are inflated.
 class Run {
   constructor(facts, end) {
-    Object.assign(this, { facts, end, positions: [], balls: [], turns: [] });
+    Object.assign(this, { facts, end, positions: [], balls: [], turns: [], changes: [], change: new Float32Array(facts.classes.length) });
     this.times = end.steps.map((step) => step * facts.timestep);
     this.tracks = [new Track(facts.particles, facts.quantum),
-      new Track(facts.balls.length, facts.ballQuantum), new Track(facts.balls.length, facts.spinQuantum)];
+      new Track(facts.balls.length, facts.ballQuantum), new Track(facts.balls.length, facts.spinQuantum),
+      new Track(Math.ceil(facts.actuated.length / 3), facts.changeQuantum)];
   }
 
   async readShapes(data) {
@@ -106,6 +107,7 @@ class Run {
     this.positions.push(await this.tracks[0].next(data));
     this.balls.push(await this.tracks[1].next(data));
     this.turn(await this.tracks[2].next(data));
+    if (this.facts.actuated.length > 0) this.changes.push(await this.tracks[3].next(data));
   }
 
   // Each ball turns from picture to picture by its angular velocity in the later one; none has turned in the first.

@@ -16,7 +16,7 @@ class Painter {
       balls: of("ball.vert", "ball.frag"), particles: of("ball.vert", "ball.frag", ["PARTICLES"]),
       springs: of("spring.vert", "spring.frag"),
     };
-    this.scales = { "signed-strain": this.scale(view.signedScale), other: this.scale(view.scale) };
+    this.scales = { signed: this.scale(view.signedScale), other: this.scale(view.scale) };
     const levels = Math.log2(tileSize) + 1;
     const tiles = device.image(gl.SRGB8_ALPHA8, tileSize, tileSize, { levels });
     device.drawInto(tiles);
@@ -63,7 +63,7 @@ class Painter {
       mapped: look.range ? 1 : 0, range: look.range ? [look.range[0], 1 / (look.range[1] - look.range[0])] : [0, 1],
       see_through: look.particles || types.some((type) => look[type]) ? 1 : 0 };
     device.bind(units.particles, bodies.particles);
-    device.bind(units.scale, this.scales[look.colour] ?? this.scales.other);
+    device.bind(units.scale, hasSign(look.colour) ? this.scales.signed : this.scales.other);
     device.bind(units.tiles, this.tiles);
     this.drawLights();
     device.bind(units.sun_map, bodies.maps[0].texture);

@@ -12,7 +12,8 @@ class Page {
     this.several = runs.length > 1;
     this.player = new Player(this.recording);
     this.camera = new Camera(facts.view);
-    this.look = { ...draw, terrain, axes, colour: colours.includes(colour) ? colour : "material" };
+    this.look = { ...draw, terrain, axes, colour: "material" };
+    if (this.offers(colour)) this.look.colour = colour;
     this.plot = new Plot($("plot"), this.recording);
     this.stats = { firstPicture: 0, pictures: 0 };
     this.quality = 1;
@@ -55,7 +56,7 @@ class Page {
     $("author").textContent = facts.author;
     $("command").textContent = facts.command;
     $("command").hidden = $("copy").hidden = facts.command === "";  // the window's pages have none
-    for (const colour of colours) $("colour").append(new Option(colour === "signed-strain" ? "strain, signed" : colour, colour));
+    for (const colour of colours.filter((colour) => this.offers(colour))) $("colour").append(new Option(colour === "signed-strain" ? "strain, signed" : colour, colour));
     $("speed").append(...speeds.map((s) => new Option(s < 1 ? `1/${1 / s} ×` : `${s} ×`, s)));
     $("parameters").replaceChildren(...runs.flatMap((run, i) => {
       const table = document.createElement("table");
@@ -143,7 +144,15 @@ class Page {
     });
   }
 
+  // Only actuated runs have the colour `actuation`, and those that are simulated here say nothing of it.
+  offers(colour) {
+    const { runs, facts } = this.recording;
+    if (colour === "actuation") return !facts.live && runs.every((run) => run.facts.actuated.length > 0);
+    return colours.includes(colour);
+  }
+
   setColour(colour) {
+    if (!this.offers(colour)) return;
     this.look.colour = colour;
     this.showLook();
     this.changed();
@@ -169,7 +178,7 @@ class Page {
     const [title, unit, size] = quantities[look.colour], [low, high] = look.range;
     $("legend-title").textContent = title;
     const mark = (x) => shortNumber(Number((x / size).toPrecision(12))) + unit;
-    const signed = look.colour === "signed-strain";
+    const signed = hasSign(look.colour);
     $("legend-marks").replaceChildren(...[(low !== 0 || signed ? "≤ " : "") + mark(low), mark((low + high) / 2), "≥ " + mark(high)].map((text) => {
       const span = document.createElement("span");
       span.textContent = text;

@@ -67,9 +67,11 @@ class Springs {
   value(colour, s, x, v) {
     const own = this.run.facts.classes[this.classes[s]], a = 3 * this.a[s], b = 3 * this.b[s];
     const ex = x[a] - x[b], ey = x[a + 1] - x[b + 1], ez = x[a + 2] - x[b + 2];
-    const L = Math.sqrt(ex * ex + ey * ey + ez * ez), stretch = L - own.r;
-    if (colour === "strain") return Math.abs(stretch) / own.r;
-    if (colour === "signed-strain") return stretch / own.r;
+    const change = this.run.change[this.classes[s]], r = own.r * (1 + change);
+    const L = Math.sqrt(ex * ex + ey * ey + ez * ez), stretch = L - r;
+    if (colour === "actuation") return change;
+    if (colour === "strain") return Math.abs(stretch) / r;
+    if (colour === "signed-strain") return stretch / r;
     if (own.cord && stretch < 0) return 0;
     if (colour === "energy") return 0.5 * own.k * stretch * stretch;
     if (L === 0) return 0;
@@ -115,6 +117,10 @@ class Motion {
     const rate = (i, j) => (run.times[j] > run.times[i] ? 1 / (run.times[j] - run.times[i]) : 0);
     this.mix(run.positions, this.x, f, share, rate, this.v);
     this.mix(run.balls, this.balls, f, share, rate);
+    if (run.changes.length > 0) {
+      const from = run.changes[f[1]], to = run.changes[f[2]];
+      run.facts.actuated.forEach((own, i) => { run.change[own] = from[i] + share * (to[i] - from[i]); });
+    }
     const q = run.turns[f[1]], r = run.turns[f[2]];
     for (let i = 0; i < q.length; ++i) this.turns[i] = q[i] + share * (r[i] - q[i]);
   }
