@@ -55,6 +55,9 @@ draw bridge 0.7 bridge
 draw swing 0.42 swing --view colour=signed-strain
 draw jelly-figure 1.6 jelly-figure
 draw jelly-figure-strain 0.95 jelly-figure --view colour=strain
+draw worm 3.2 worm
+draw worm-actuation 3.2 worm --view colour=actuation
+draw walker 2.1 walker
 for scene in plane:1.25 tilted-plane:1 sphere:1 bowl:1.2; do
   draw course-2021-${scene%:*} ${scene#*:} course-2021-${scene%:*}
 done

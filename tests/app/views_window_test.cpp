@@ -36,6 +36,8 @@ const std::vector<View>& views() {
                                         {"curtain", 500},
                                         {"bridge", 700},
                                         {"swing", 900},
+                                        {"worm", 2000},
+                                        {"walker", 2000},
                                         {"cubes-stack", 900},
                                         {"heap", 700},
                                         {"squeeze", 900},

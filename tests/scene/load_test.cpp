@@ -205,6 +205,8 @@ std::pair<std::uint32_t, std::uint32_t> expected_sizes(const std::string& scene)
   if (scene == "bridge") return {690, 2};
   if (scene == "swing") return {21 * 4 * 9, 0};
   if (scene == "jelly-figure") return {1566, 0};
+  if (scene == "worm") return {164, 0};
+  if (scene == "walker") return {183, 0};
   if (scene == "ball-pit") return {0, 1000};
   if (scene == "cube-and-balls") return {1000, 3};
   if (scene == "cubes-stack") return {3 * 1000, 0};
@@ -230,20 +232,21 @@ TEST(Builtin, ScenesLoadAndBuild) {
       for (const Terrain& t : model->terrain) ASSERT_GT(signed_distance(t, x), 0.05);
     }
   }
-  EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
-                                          "cube-torus", "cube-hole", "elevator", "cubes-stack", "heap",
-                                          "squeeze", "goal-net", "penalty", "flag", "curtain", "bridge",
-                                          "swing", "jelly-figure", "ball-pit", "cube-and-balls", "large-cube",
-                                          "course-2021-plane", "course-2021-tilted-plane",
-                                          "course-2021-sphere", "course-2021-bowl", "course-2018"));
+  EXPECT_THAT(names, testing::ElementsAre(
+                         "cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus",
+                         "cube-hole", "elevator", "cubes-stack", "heap", "squeeze", "goal-net", "penalty",
+                         "flag", "curtain", "bridge", "swing", "jelly-figure", "worm", "walker", "ball-pit",
+                         "cube-and-balls", "large-cube", "course-2021-plane", "course-2021-tilted-plane",
+                         "course-2021-sphere", "course-2021-bowl", "course-2018"));
 }
 
 TEST(Builtin, ScenesOfAGroupFollowOneAnother) {
   std::vector<std::string> groups;
   for (const BuiltinScene& builtin : list_builtin_scenes())
     if (groups.empty() || groups.back() != builtin.group) groups.emplace_back(builtin.group);
-  EXPECT_THAT(groups, testing::ElementsAre("Cubes", "Bodies that touch", "Nets and cloth",
-                                           "Cells of materials", "Balls", "Large", "University course"));
+  EXPECT_THAT(groups,
+              testing::ElementsAre("Cubes", "Bodies that touch", "Nets and cloth", "Cells of materials",
+                                   "Robots of cells", "Balls", "Large", "University course"));
 }
 
 // Limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.
