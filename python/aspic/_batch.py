@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, SupportsIndex, Union
 
 from . import _aspic
+from ._body import body_index
 from ._errors import DivergedError, UsageError, diverged
 from ._inputs import Steerable
 from ._scene import Scene, assignments, load
@@ -337,14 +338,14 @@ class Batch:
 
     def _body(self, name: str) -> int:
         """The number of a body in every instance; no name: the only one."""
-        wanted = name if name.endswith("]") else f"{name}[0]"
         numbers = set()
         for i, bodies in enumerate(self._core.bodies()):
             if not name and len(bodies) != 1:
                 raise UsageError(f"instance {i} has {len(bodies)} bodies: record one's, as in 'cube[0].positions'")
-            if name and wanted not in bodies:
+            number = body_index(bodies, name, self[i]._core.scene) if name else 0
+            if number is None:
                 raise UsageError(f"instance {i} has no body {name!r}; it has {', '.join(bodies) or 'none'}")
-            numbers.add(bodies.index(wanted) if name else 0)
+            numbers.add(number)
         if len(numbers) > 1:
             raise UsageError(f"{name!r} is not the body of the same number in all instances")
         return numbers.pop()

@@ -8,10 +8,24 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from . import _aspic
     from ._reading import Readable
     from ._state import Floats
 
-__all__ = ["Ball", "Body"]
+__all__ = ["Ball", "Body", "body_index"]
+
+
+def body_index(bodies: list[str], name: str, scene: _aspic.Scene) -> int | None:
+    """Which of the bodies is meant: by ``cube[0]``, ``cube`` or the name that the scene gives one; None: none."""
+    wanted = name if name.endswith("]") else f"{name}[0]"
+    if wanted in bodies:
+        return bodies.index(wanted)
+    named = set(scene.keys())
+    for index, body in enumerate(bodies):
+        own = scene.value(f"{body}.name") if f"{body}.name" in named else None
+        if own and name in (own, f"{body.partition('[')[0]}[{own}]"):
+            return index
+    return None
 
 
 class Body:

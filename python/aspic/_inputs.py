@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _aspic
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Pull", "Replayable", "Steerable"]
+__all__ = ["Pull", "Replayable", "Signals", "Steerable"]
 
 
 class Pull(NamedTuple):
@@ -81,9 +82,10 @@ class Steerable(Readable):
 
     @property
     def channels(self) -> tuple[float, ...]:
-        """Numbers by index, at most 65,536, for parts of a model that read an input, which none does yet.
+        """Numbers by index, which actuators with ``signal = "input"`` read; ``inputs`` has them by name.
 
-        They may be assigned, and are kept and replayed as pulls are. Raises UsageError for numbers that are not finite.
+        They may be assigned, and are kept and replayed as pulls are; those that are missing are 0. Raises UsageError
+        for numbers that are not finite, and for more than the scene's actuators read, where it has any.
         """
         return tuple(self._core.inputs()[3])
 
@@ -91,6 +93,59 @@ class Steerable(Readable):
     def channels(self, channels: Iterable[float]) -> None:
         pulls, pinned, released, _ = self._core.inputs()
         self._core.set_inputs((pulls, pinned, released, [float(number) for number in channels]))
+
+    @property
+    def inputs(self) -> Signals:
+        """The signals of the actuators with ``signal = "input"``, by their names: ``sim.inputs["legs"] = 0.3``.
+
+        A dict in its place sets several; the others stay. They hold from this step on. Raises UsageError for unknown
+        names and numbers that are not finite.
+        """
+        return Signals(self)
+
+    @inputs.setter
+    def inputs(self, values: Mapping[str, float]) -> None:
+        Signals(self).update(values)
+
+
+class Signals(Mapping[str, float]):
+    """Inputs by the names of their actuators, in the order of the scene. Those that were never set are 0."""
+
+    def __init__(self, of: Steerable):
+        self._of = of
+        self._names: list[str] = of._core.input_names()
+
+    def __getitem__(self, name: str) -> float:
+        number = self._number(name)
+        channels = self._of.channels
+        return channels[number] if number < len(channels) else 0.0
+
+    def __setitem__(self, name: str, value: float) -> None:
+        self.update({name: value})
+
+    def update(self, values: Mapping[str, float]) -> None:
+        """Sets several."""
+        channels = list(self._of.channels)
+        channels += [0.0] * (len(self._names) - len(channels))
+        for name, value in values.items():
+            channels[self._number(name)] = float(value)
+        self._of.channels = channels
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __repr__(self) -> str:
+        return repr(dict(self))
+
+    def _number(self, name: str) -> int:
+        if name in self._names:
+            return self._names.index(name)
+        near = difflib.get_close_matches(name, self._names, 1)
+        has = f"the inputs are {', '.join(self._names)}" if self._names else "no actuator has signal = \"input\""
+        raise UsageError(f"there is no input {name!r}; " + (f"did you mean {near[0]!r}?" if near else has))
 
 
 class Replayable(Steerable):

@@ -6,7 +6,7 @@ import difflib
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _aspic
-from ._body import Ball, Body
+from ._body import Ball, Body, body_index
 from ._errors import UsageError
 from ._scene import Scene
 from ._state import State, field_index
@@ -113,12 +113,15 @@ class Readable:
         return [Ball(self, i, *row) for i, row in enumerate(self._core.balls())]
 
     def __getitem__(self, name: str) -> Any:
-        """The Body ``"cube[0]"`` (or ``"cube"``, the first one) or the Ball ``"ball[0]"``. Raises UsageError."""
-        wanted = name if name.endswith("]") else f"{name}[0]"
+        """The Body ``"cube[0]"`` (or ``"cube"``, the first one), one by its own name, or the Ball ``"ball[0]"``.
+
+        ``"worm"`` and ``"voxels[worm]"`` are the body that a scene names so. Raises UsageError.
+        """
         bodies = self.bodies
-        if wanted in bodies:
-            index = bodies.index(wanted)
-            return Body(self, wanted, index, *self._core.ranges()[index])
+        index = body_index(bodies, name, self._core.scene)
+        if index is not None:
+            return Body(self, bodies[index], index, *self._core.ranges()[index])
+        wanted = name if name.endswith("]") else f"{name}[0]"
         balls = {ball.name: ball for ball in self.balls}
         if wanted in balls:
             return balls[wanted]

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from . import _aspic, _program
+from ._building import Buildable
 from ._errors import SceneError, UsageError
 
 __all__ = ["BuiltinScene", "Parameter", "Scene", "load", "parameters", "scenes"]
@@ -90,7 +91,7 @@ def assignments(values: Mapping[str, Any] | None) -> list[str]:
     return found
 
 
-class Scene:
+class Scene(Buildable):
     """Physics and picture of one scene file.
 
     Keys are the paths of ``--set``: ``scene["simulation.timestep"] = 0.0005``. Units are those of SI; every key, its
@@ -104,12 +105,12 @@ class Scene:
         ``name``: for messages, and for titles where the text gives none; ``overrides``: keys and values set afterwards.
         Raises SceneError with every mistake, its line and the nearest word.
         """
-        self._core = _aspic.Scene.parse(text, name, assignments(overrides))
+        self._core, self._notes = _aspic.Scene.parse(text, name, assignments(overrides))
 
     @classmethod
-    def _of(cls, core: _aspic.Scene) -> Scene:
+    def _of(cls, core: _aspic.Scene, notes: Iterable[str] = ()) -> Scene:
         scene = cls.__new__(cls)
-        scene._core = core
+        scene._core, scene._notes = core, list(notes)
         return scene
 
     @property
@@ -126,6 +127,11 @@ class Scene:
     def bodies(self) -> list[str]:
         """The names of the bodies: ``cube[0]``, ``goal-net[0]``, ``cloth[0]``."""
         return self._core.bodies()
+
+    @property
+    def notes(self) -> list[str]:
+        """What was repaired in meshes and made of them, a sentence each, since the scene was read."""
+        return list(self._notes)
 
     def __getitem__(self, key: str) -> Any:
         """The value of a key: a number, word, tuple (vectors) or list; None where it is absent or has no meaning here.
@@ -148,11 +154,13 @@ class Scene:
 
     def update(self, values: Mapping[str, Any]) -> None:
         """Sets several keys at once: all, or none if it raises SceneError. Keys may depend on each other."""
-        self._core = self._core.with_overrides(assignments(values))
+        self._core, notes = self._core.with_overrides(assignments(values))
+        self._notes += notes
 
     def copy(self, values: Mapping[str, Any] | None = None) -> Scene:
         """Another scene with the same values, but for those given. Raises SceneError."""
-        return Scene._of(self._core.with_overrides(assignments(values)) if values else self._core)
+        core, notes = self._core.with_overrides(assignments(values)) if values else (self._core, [])
+        return Scene._of(core, [*self._notes, *notes])
 
     def __copy__(self) -> Scene:
         return self.copy()
@@ -214,4 +222,4 @@ def load(name: str | os.PathLike[str], overrides: Mapping[str, Any] | None = Non
     ``overrides``: keys and values as ``Scene.update()`` takes them. Write ``./cube-plane`` for a file with a built-in's
     name. Raises SceneError with every mistake, its line and the nearest word; FileError for a path that cannot be read.
     """
-    return Scene._of(_aspic.Scene.load(os.fspath(name), assignments(overrides)))
+    return Scene._of(*_aspic.Scene.load(os.fspath(name), assignments(overrides)))

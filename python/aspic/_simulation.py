@@ -16,6 +16,8 @@ from ._state import State, field_index
 from ._trajectory import Recorder, Trajectory
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from ._picture import Picture
 
 __all__ = ["Simulation", "resume"]
@@ -112,6 +114,7 @@ class Simulation(Replayable):
         steps: int | None = None,
         every: float | None = None,
         record: Sequence[str] = ("energy",),
+        controls: ArrayLike | None = None,
     ) -> Trajectory:
         """Steps, and records on the way.
 
@@ -121,13 +124,19 @@ class Simulation(Replayable):
         ``"max-speed"``, ``"min-height"``, ``"hash"``, and of a body ``"cube[0].positions"``, ``"….velocities"``,
         ``"….centre-of-mass"``, ``"….momentum"``. Also ``"speed"``, ``"force"``, ``"contact-force"``, ``"contact"``,
         ``"mean-strain"`` of particles, ``"strain"`` and ``"tension"`` of springs, ``"ball-positions"``,
-        ``"ball-velocities"``, ``"ball-angular-velocities"``; ``"motion"`` is all that exports hold. Raises UsageError
-        for others; DivergedError as ``step()``, with what was recorded as ``trajectory``.
+        ``"ball-velocities"``, ``"ball-angular-velocities"``; ``"motion"`` is all that exports hold. ``controls``: the
+        ``inputs`` by step, (steps, inputs), in their order; then the run has so many steps. Raises UsageError for
+        others; DivergedError as ``step()``, with what was recorded as ``trajectory``.
         """
-        count = self._steps_of(duration, steps)
         _check_interval(every)
         recorder = Recorder(self, record)
-        found = self._sample(count, every, recorder.take)
+        if controls is None:
+            found = self._sample(self._steps_of(duration, steps), every, recorder.take)
+        else:
+            rows = self._controls(controls)
+            if duration is not None or steps not in (None, len(rows)):
+                raise UsageError(f"a run of {len(rows)} controls has so many steps")
+            found = self._sample(len(rows), every, recorder.take, rows)
         self._warn()
         if found:
             error = diverged(found)
@@ -174,7 +183,30 @@ class Simulation(Replayable):
         if found:
             raise diverged(found)
 
-    def _sample(self, count: int, every: float | None, take: Callable[[], None]) -> tuple[int, int, bool, str] | None:
+    def _controls(self, controls: ArrayLike) -> list[list[float]]:
+        import numpy as np
+
+        rows = np.asarray(controls, dtype=float)
+        if rows.ndim != 2 or rows.shape[1] != len(self.inputs):
+            raise UsageError(f"controls are (steps, {len(self.inputs)}), of {', '.join(self.inputs)}, not {rows.shape}")
+        return rows.tolist()  # type: ignore[no-any-return]
+
+    def _advance(self, steps: int, controls: Sequence[Sequence[float]]) -> tuple[int, int, bool, str] | None:
+        """So many steps, each with its own row of inputs."""
+        for row in controls[:steps]:
+            self.channels = row
+            found = self._core.advance(1)
+            if found:
+                return found
+        return None
+
+    def _sample(
+        self,
+        count: int,
+        every: float | None,
+        take: Callable[[], None],
+        controls: Sequence[Sequence[float]] | None = None,
+    ) -> tuple[int, int, bool, str] | None:
         """So many steps with samples, the first at once; what diverged."""
         start, h = self.steps, self.timestep
         take()
@@ -185,7 +217,8 @@ class Simulation(Replayable):
             wanted = count if every is None else round(k * every / h)
             if wanted <= done:
                 continue
-            found = self._core.advance(min(wanted, count) - done)
+            more = min(wanted, count) - done
+            found = self._core.advance(more) if controls is None else self._advance(more, controls[done:])
             if found:
                 return found
             if wanted <= count:

@@ -2,6 +2,7 @@
 // What a simulation and an instance of a batch have in common for Python: both are read and steered alike.
 #include <aspic/analysis.h>
 #include <aspic/inputs.h>
+#include <aspic/model.h>
 #include <aspic/solver.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -99,6 +100,8 @@ void bind_reading(nb::class_<T>& bound) {
           "Four corners each.")
       .def(
           "ranges", [](T& t) { return ranges(*t.model()); }, "First particle and count of each body.")
+      .def(
+          "input_names", [](T& t) { return input_names(*t.model()); }, "Of the actuators that read channels.")
       .def(
           "balls", [](T& t) { return balls(*t.model()); }, "Radius, mass and launch step of each ball.")
       .def("update", &T::update, nb::arg("overrides"), "Other constants.")

@@ -6,6 +6,7 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -14,6 +15,7 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -43,6 +45,17 @@ nb::object as_object(const ParameterValue& value) {
 namespace {
 
 using Words = std::vector<std::string>;
+
+/// A scene, and what was repaired in meshes on the way to it.
+using Read = std::pair<Scene, Words>;
+
+/// Of what reads a scene with options.
+template <class Reading>
+Read read(const Reading& reading) {
+  Read made;
+  made.first = take(reading(LoadOptions{.notes = &made.second}));
+  return made;
+}
 
 using Text = std::tuple<std::string, std::string, std::string>;
 
@@ -83,18 +96,24 @@ void bind_scene(nb::module_& module) {
   nb::class_<Scene>(module, "Scene", "A scene as the library holds it. It never changes.")
       .def_static(
           "load",
-          [](const std::string& name, const Words& overrides) { return take(load_scene(name, overrides)); },
-          nb::arg("name"), nb::arg("overrides"), "Reads a file or a built-in scene.")
+          [](const std::string& name, const Words& overrides) {
+            return read([&](const LoadOptions& options) { return load_scene(name, overrides, options); });
+          },
+          nb::arg("name"), nb::arg("overrides"), "Reads a file or a built-in scene; with notes.")
       .def_static(
           "parse",
           [](const std::string& text, const std::string& name, const Words& overrides) {
-            return take(parse_scene(text, name, overrides));
+            return read(
+                [&](const LoadOptions& options) { return parse_scene(text, name, overrides, options); });
           },
-          nb::arg("text"), nb::arg("name"), nb::arg("overrides"), "Reads TOML.")
+          nb::arg("text"), nb::arg("name"), nb::arg("overrides"), "Reads TOML; with notes.")
       .def(
           "with_overrides",
-          [](const Scene& scene, const Words& overrides) { return take(with_overrides(scene, overrides)); },
-          nb::arg("overrides"), "The scene with arguments of --set.")
+          [](const Scene& scene, const Words& overrides) {
+            return read(
+                [&](const LoadOptions& options) { return with_overrides(scene, overrides, options); });
+          },
+          nb::arg("overrides"), "The scene with arguments of --set; with notes.")
       .def(
           "with_view", [](const Scene& scene, const Words& keys) { return take(with_view(scene, keys)); },
           nb::arg("arguments"), "The scene with arguments of --view.")

@@ -18,7 +18,7 @@ gymnasium: Any = pytest.importorskip(
     "gymnasium", reason="gymnasium is not installed: pip install 'aspic[gym]' brings it"
 )
 import aspic.gym  # noqa: E402
-from aspic.gym import AutoresetMode, BatchEnv, Crawl, CrawlEnv  # noqa: E402
+from aspic.gym import AutoresetMode, BatchEnv, Crawl, CrawlEnv, Walk, WalkEnv  # noqa: E402
 from gymnasium.utils.env_checker import check_env, data_equivalence  # noqa: E402
 from gymnasium.utils.passive_env_checker import data_shares_objects  # noqa: E402
 
@@ -70,6 +70,42 @@ def test_a_single_environment_passes_the_checker() -> None:
         assert isinstance(env, CrawlEnv)
         check_env(env, skip_render_check=True)
         env.close()
+
+
+def test_a_walker_passes_the_checker_and_walks() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        env = gymnasium.make("aspic/Walk-v0").unwrapped
+        assert isinstance(env, WalkEnv)
+        check_env(env, skip_render_check=True)
+    envs = gymnasium.make_vec("aspic/Walk-v0", num_envs=2, episode=4.0)
+    assert isinstance(envs, Walk) and envs.single_action_space.shape == (4,)
+    names = list(envs.batch[0].inputs)
+    phases = [envs.batch[0].scene[f"actuator[{name}].phase.offset"] for name in names]
+    observations, _ = envs.reset(seed=1)
+    assert observations.shape == (2, 17) and (observations[:, 2:6] == 0).all()
+    for step in range(200):
+        # The second one stands.
+        gait = np.sin(2 * np.pi * (1.5 * 0.02 * step + np.array(phases)))
+        observations, _, _, _, infos = envs.step(np.array([gait, np.zeros(4)]))
+        assert observations in envs.observation_space
+    assert infos["distance"][0] > 0.3 and abs(infos["distance"][1]) < 0.05
+    assert observations[1, 10:16] == pytest.approx([1, 0, 0, 0, 1, 0], abs=0.2) and 0 <= observations[1, 16] <= 1
+    for options, words in (({"rate": 0}, "rate"), ({"scenes": "worm"}, "no actuator"), ({"cycle": -1}, "cycle")):
+        with pytest.raises(aspic.UsageError, match=words):
+            Walk(**options)
+
+
+def test_walkers_do_not_depend_on_others_nor_on_threads() -> None:
+    def hashes(count: int, threads: int, seeds: Any) -> list[str]:
+        envs = Walk(count, threads=threads)
+        envs.reset(seed=seeds)
+        for step in range(3):
+            envs.step(np.full((count, 4), step / 2, np.float32))
+        return envs.batch.hash
+
+    three = hashes(3, 2, 20)
+    assert three == hashes(3, 1, [20, 21, 22]) and len(set(three)) == 3 and hashes(1, 1, 21) == three[1:2]
 
 
 def test_it_passes_the_checker_with_pictures() -> None:

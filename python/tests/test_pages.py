@@ -77,6 +77,10 @@ EXAMPLES = {
         ["--generations", "2", "--pairs", "4", "--seconds", "0.2"],
         r"weights 892ca1a7e9ca56a5\ncrawled -0.012 m in 0.2 s, hash 22ca02d0539aa422\n",
     ),
+    "evolve.py": (
+        ["--robots", "12", "--generations", "3", "--seconds", "0.4", "--shape", "3", "2", "2"],
+        r"generation 3: the best \d.\d+ m.*\nthe winner crawls \d.\d+ m in 0.4 s, hash [0-9a-f]{16}\n",
+    ),
     "population.py": (
         ["--cubes", "20", "--particles", "3", "--seconds", "1"],
         r"20 instances, 20 of them in 2 stacks.*\n(cube \d+: up to \d.*\n){5}\d of 20 diverged\n",
