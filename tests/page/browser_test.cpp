@@ -76,6 +76,8 @@ TEST_P(EveryPageInBrowsers, ShowsEveryScene) {
       {"bridge", "0.7"},
       {"swing", "0.45"},
       {"jelly-figure", "1.5"},
+      {"worm", "2.2"},
+      {"walker", "2.1"},
       {"cubes-stack", "1"},
       {"heap", "1.3"},
       {"squeeze", "1.9"},
