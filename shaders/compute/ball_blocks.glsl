@@ -4,7 +4,9 @@
 layout(std430, binding = BINDING_STATE_A) restrict buffer StateA { Particle state_a[]; };
 layout(std430, binding = BINDING_STATE_B) restrict buffer StateB { Particle state_b[]; };
 layout(std430, binding = BINDING_BALLS) restrict buffer Balls { Ball balls[]; };
+#ifndef ASPIC_BALL_FACE_KERNEL
 layout(std430, binding = BINDING_BALL_TOUCHES) restrict buffer TouchesBlock { BallTouches touches[]; };
+#endif
 
 #ifdef ASPIC_IMPLICIT
 layout(std430, binding = BINDING_SOLVE) restrict coherent buffer SolveBlock { Solve solve; };
@@ -35,8 +37,9 @@ void mark_full() { atomicMin(control.full_step, step_index); }
 uint end_slot() { return 1u - start_slot(); }
 
 // Where a phase reads balls, and where it writes them.
-uint slot_before(uint phase) { return phase == BALL_PHASE_PARTICLES ? end_slot() : BALL_SLOT_BETWEEN; }
-uint slot_after(uint phase) { return phase == BALL_PHASE_PARTICLES ? BALL_SLOT_BETWEEN : end_slot(); }
+bool from_end(uint phase) { return phase == BALL_PHASE_PARTICLES || phase == BALL_PHASE_FACES; }
+uint slot_before(uint phase) { return from_end(phase) ? end_slot() : BALL_SLOT_BETWEEN; }
+uint slot_after(uint phase) { return from_end(phase) ? BALL_SLOT_BETWEEN : end_slot(); }
 
 Ball ball_in(uint slot, uint b) { return balls[slot * ball_count + b]; }
 

@@ -23,10 +23,12 @@ void main() {
       ball.spin.xyz = omega;
     }
   }
+#ifndef ASPIC_BALL_FACES  // else the step goes on
   if (ball_phase == BALL_PHASE_POSITIONS) {
     uint bad = divergence_word(particle_count + b, ball.position.xyz, ball.velocity.xyz);
     if (!finite(ball.spin.xyz)) bad = 2u * (particle_count + b);
     if (bad != NO_STEP) mark_divergence(bad);
   }
+#endif
   balls[slot_after(ball_phase) * ball_count + b] = ball;
 }

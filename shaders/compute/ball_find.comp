@@ -99,9 +99,11 @@ void main() {
   } else if (found_count > 0u) {
     keep_list(seeker, touch);
   } else if (seeker.kind == KIND_PARTICLE) {
+#ifndef ASPIC_BALL_FACES
     // It is at the end of its step.
     uint bad = divergence_word(seeker.index, seeker.x, seeker.v);
     if (bad != NO_STEP) mark_divergence(bad);
+#endif
   }
   touches[i] = touch;
 }

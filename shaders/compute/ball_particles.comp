@@ -28,7 +28,9 @@ void main() {
       state_a[p] = particle;
     }
   }
+#ifndef ASPIC_BALL_FACES  // else the step goes on
   if (ball_phase != BALL_PHASE_POSITIONS) return;
   uint bad = divergence_word(p, particle.position.xyz, particle.velocity.xyz);
   if (bad != NO_STEP) mark_divergence(bad);
+#endif
 }

@@ -2,6 +2,12 @@
 // vec4 and uvec4 only, or scalars in groups of four: then std140, std430 and C++ agree on every offset.
 #include "shared/layout.glsl"
 
+// Of those of balls and faces.
+#define BINDING_BALL_FACES 3        // uvec4[]: bodies and blocks; each body's first block, blocks, 1 if closed; corners
+#define BINDING_BALL_FACE_COUNTS 4  // BallFaceCount[balls + particles]
+#define BINDING_BALL_FACE_BOXES 5   // vec4[2 · blocks]: low and high corners
+#define BINDING_BALL_FACE_PAIRS 7   // BallFacePair[balls · bodies with faces]
+
 #define MAX_STAGES 4
 #define MAX_SPRING_CLASSES 640
 #define MAX_TERRAINS 64
@@ -99,6 +105,9 @@
 #define BALL_PHASE_PARTICLES 1u  // velocities, ball and particle
 #define BALL_PHASE_POSITIONS 2u  // overlaps of either kind
 #define BALL_PHASES 3u
+// The same with faces, after all of these.
+#define BALL_PHASE_FACES 3u           // velocities
+#define BALL_PHASE_FACE_POSITIONS 4u  // overlaps
 
 #define NO_BODY 0xffffffffu
 
@@ -131,8 +140,9 @@
 #define KERNEL_BALL_PARTIALS 8u
 #define KERNEL_BALL_EXCHANGE 9u
 #define KERNEL_BALL_PARTICLES 10u
-#define KERNEL_COUNT 11u
-#define ITEMS_MISSING 11u  // in place of a kernel: items of a pass that were not carried out
+#define KERNEL_BALL_FACES 11u
+#define KERNEL_COUNT 12u
+#define ITEMS_MISSING 12u  // in place of a kernel: items of a pass that were not carried out
 
 #define DRIFT_STAGE_VELOCITY 0u  // Drift in src/model/integrator.h
 #define DRIFT_NEW_VELOCITY 1u
@@ -186,6 +196,32 @@ struct BallWork {
   uint tally_groups[3];   // over these and the particles
   uint item_groups[3];    // over items
   uint work_padding0, work_padding1, work_padding2;
+};
+
+// Triangles in a row that are passed over as one where they are far: face_block in src/model/ball_faces.h.
+#define FACE_BLOCK 64u
+// Pairs of a particle that are sorted by itself; with more, it asks all balls.
+#define FACE_LIST_SIZE 32u
+// Flags of a pair.
+#define FACE_TOUCHES 1u  // there is one
+#define FACE_WITHIN 2u   // its place is within the face, not on an edge
+
+// A ball and the nearest face of a body.
+struct BallFacePair {
+  uint corner[3];  // particles
+  uint flags;      // FACE_…
+  float share[3];  // of the corners in the place
+  float side;      // −1 where the face's normal, or e on an edge, leads away from the ball, else 1
+  vec4 linear;     // normal towards the ball; w: distance [m]. Then what the ball receives: an impulse or a shift
+  vec4 turning;
+  uint next[3];    // in each corner's list: 3 · pair + corner + 1, or 0
+  uint acts;       // 1: it does in this phase
+};
+
+// Pairs of a body that act in the phase; of a particle, where their list begins.
+struct BallFaceCount {
+  uint pairs;
+  uint first_pair;
 };
 
 // A first contact and one of each other side of a body: at most so many sides may a body have.

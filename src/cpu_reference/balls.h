@@ -1,6 +1,6 @@
 #pragma once
 // What balls do in a step (docs/balls.md): free flight with the scene's integrator, terrain, each other,
-// particles, and last the position phase.
+// particles, the position phase, and last faces.
 //
 // A phase is Jacobi's: all of its pairs are computed from the velocities the phase before left, with every
 // body's mass shared among its acting pairs; a body's impulses are summed in ascending partner index, in
@@ -13,20 +13,16 @@
 #include <vector>
 
 #include "cpu_reference/ball_contact.h"
+#include "cpu_reference/ball_faces.h"
 #include "cpu_reference/ball_pairs.h"
 #include "cpu_reference/ball_particles.h"
+#include "cpu_reference/ball_phase.h"
 #include "cpu_reference/ball_search.h"
 #include "cpu_reference/integrators.h"
 #include "cpu_reference/reductions.h"
 #include "model/integrator.h"
 
 namespace aspic::reference {
-
-/// Positions, velocities and angular velocities of all balls.
-template <class T>
-struct BallPhase {
-  Field<T> x, v, omega;
-};
 
 template <class T>
 class Balls {
@@ -36,7 +32,8 @@ class Balls {
         gravity_(rounded<T>(model.simulation.gravity)),
         rules_{ContactConstants<T>(model), static_cast<T>(model.contact.ball_restitution),
                static_cast<T>(model.contact.ball_friction), model.contact.spin},
-        particle_weight_(model.inverse_mass) {
+        particle_weight_(model.inverse_mass),
+        faces_(model) {
     for (const Ball& ball : model.balls) {
       bodies_.emplace_back(ball);
       largest_radius_ = std::max(largest_radius_, static_cast<double>(bodies_.back().radius));
@@ -69,6 +66,7 @@ class Balls {
     exchange_among_balls(start, end);
     exchange_with_particles(start, end, particle_start, particles);
     separate(end, particles);
+    faces_.meet(start, end, particle_start, particles, all_bodies());
     return end;
   }
 
@@ -187,6 +185,7 @@ class Balls {
   }
 
   const BallBody<T>& body(std::uint32_t b) const { return bodies_[b]; }
+  typename BallsOnFaces<T>::Bodies all_bodies() const { return {rules_, bodies_, particle_weight_}; }
   static T number(std::uint32_t count) { return static_cast<T>(count); }
 
   const Model* model_;
@@ -197,6 +196,7 @@ class Balls {
   std::vector<Ground<T>> grounds_;
   std::vector<PullConstants<T>> pulls_;
   Runs<T> particle_weight_;  // w of every particle
+  BallsOnFaces<T> faces_;
   // Of the step under way.
   Contacts ball_ball_, ball_particle_, particle_ball_;
   std::vector<std::uint32_t> present_;   // balls that have been launched
@@ -240,6 +240,7 @@ void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const
     }
   }
   list_particles_of_balls();
+  faces_.find(present_, balls, all_bodies(), particles);
 }
 
 template <class T>

@@ -94,7 +94,9 @@ std::uint64_t ball_bytes(const ModelCounts& counts) {
 }
 
 std::vector<std::string> BallPasses::pass_names() {
-  return titles_of(ball_kernels);
+  std::vector<std::string> titles = titles_of(ball_kernels);
+  for (std::string& title : BallFacePasses::pass_names()) titles.push_back(std::move(title));
+  return titles;
 }
 
 /// Which kernels the scene needs. Only with more than LIST_SIZE other balls can a body be crowded.
@@ -195,6 +197,13 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
   if (implicit_) defines.push_back({"ASPIC_IMPLICIT", "1"});
   if (grid_) defines.push_back({"ASPIC_BALL_GRID", "1"});
   static_assert(BINDING_SOLVE == BINDING_CONTROL, "one place for either");
+  KernelOptions with_defines = kernels;
+  with_defines.defines = defines;
+  ASPIC_CHECK(faces_.build(context, model, with_defines,
+                           {{BINDING_SIMULATION, surroundings.simulation, gl::BufferKind::uniform},
+                            {BINDING_BALLS, &balls_},
+                            {BINDING_CONTROL, surroundings.control}}));
+  if (faces_.any()) defines.push_back({"ASPIC_BALL_FACES", "1"});
   for (std::size_t k = 0; k < kernel_count; ++k) {
     if (!wanted(static_cast<Kernel>(k))) continue;
     std::vector<Binding> bindings = {
@@ -268,7 +277,8 @@ void BallPasses::queue_phase(const Queue& queue, std::uint32_t phase) const {
   for (const Kernel kernel : {partials, exchange, particles}) {
     if (programs_[kernel]) programs_[kernel]->set(LOCATION_BALL_PHASE, phase);
   }
-  const ReadBy after = phase + 1 == BALL_PHASES && !implicit_ ? queue.last : ReadBy(ReadBy::compute_pass);
+  const bool ends = phase + 1 == BALL_PHASES && !implicit_ && !faces_.any();
+  const ReadBy after = ends ? queue.last : ReadBy(ReadBy::compute_pass);
   if (phase == BALL_PHASE_PARTICLES) {
     dispatch_indirect(queue, tally, offsetof(layout::BallWork, tally_groups));
   }
@@ -291,10 +301,13 @@ void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t ste
       program->set(LOCATION_STEP, step);
       program->set(LOCATION_BALL_PARITY, parity);
     }
+    faces_.begin_step(step, parity);
   }
   dispatch(queue, fly, count_);
   find_touches(queue);
+  faces_.queue_find(queue.states);
   for (std::uint32_t phase = 0; phase < BALL_PHASES; ++phase) queue_phase(queue, phase);
+  faces_.queue_meet(queue.states, implicit_ ? ReadBy(ReadBy::compute_pass) : last);
   if (implicit_) dispatch(queue, end_implicit, 1, last);
 }
 

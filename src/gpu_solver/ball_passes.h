@@ -11,6 +11,7 @@
 #include "gpu/pass.h"
 #include "gpu/pass_profiler.h"
 #include "gpu/program.h"
+#include "gpu_solver/ball_face_passes.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
@@ -84,6 +85,7 @@ class BallPasses {
   void set_profiler(gl::PassProfiler* profiler, std::size_t first) {
     profiler_ = profiler;
     first_kind_ = first;
+    faces_.set_profiler(profiler, first + kernel_count);
   }
 
  private:
@@ -128,6 +130,7 @@ class BallPasses {
   // By kernel; nothing where the scene needs none.
   std::array<std::shared_ptr<const gl::Program>, kernel_count> programs_;
   std::array<std::optional<gl::Pass>, kernel_count> passes_;
+  BallFacePasses faces_;
   gl::PassProfiler* profiler_ = nullptr;
   std::size_t first_kind_ = 0;
 };

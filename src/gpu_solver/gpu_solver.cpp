@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "gpu/current.h"
+#include "gpu_solver/ball_face_passes.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
@@ -62,7 +63,7 @@ std::uint64_t gpu_bytes(const Model& model, ForcePath path, std::uint64_t block_
   const DeviceMethod& method = device_method(integrator, counts.particles);
   const ForcePathRow& wanted = row_of(path, model);
   const ForcePathRow& row = method.takes(wanted) ? wanted : row_of(ForcePath::automatic, model);
-  return ball_bytes(counts) + sizeof(layout::Simulation) + pull_table_bytes +
+  return ball_bytes(counts) + ball_face_bytes(model) + sizeof(layout::Simulation) + pull_table_bytes +
          method.bytes(counts, integrator, block_bytes) + spring_buffer_bytes(model, row.words) +
          row.spring_bytes * counts.springs() + length_bytes(model);
 }

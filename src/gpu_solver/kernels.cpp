@@ -117,7 +117,8 @@ Status check_overrun(std::uint32_t overrun) {
        {"ball_gather", "the blocks of particles that one ball touches"},
        {"ball_partials", "the blocks of partners of one body"},
        {"ball_exchange", "the blocks of partners of one ball"},
-       {"ball_particles", "the blocks of partners of one particle"}}};
+       {"ball_particles", "the blocks of partners of one particle"},
+       {"ball_faces", "the faces of a body, or the balls on one particle"}}};
   if (overrun == 0) return {};
   const auto& [name, rounds] = kernels[std::min<std::uint32_t>(overrun, KERNEL_COUNT - 1)];
   return gl::loop_error(name, rounds);

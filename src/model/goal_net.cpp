@@ -66,6 +66,33 @@ void add_directions(Model& model, const Body& body, const Vec3& s, const SpringC
   offsets.insert(offsets.end(), {{steps, 0, 0, x}, {0, steps, 0, y}, {0, 0, steps, z}});
 }
 
+/// The cells of the four faces between cords: back, top and sides.
+QuadMesh meshes_of(std::uint32_t first, const std::array<int, 3>& n) {
+  QuadMesh mesh;
+  // A face lies across an axis, at one of its ends.
+  const auto add_face = [&](std::size_t axis, int at) {
+    const std::size_t before = mesh.quads.size(), u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (int i = 0; i + 1 < n[u]; ++i) {
+      for (int j = 0; j + 1 < n[v]; ++j) {
+        const auto corner = [&](int along_u, int along_v) {
+          std::array<int, 3> place = {};
+          place[axis] = at;
+          place[u] = i + along_u;
+          place[v] = j + along_v;
+          return first + *net_index(n, place[0], place[1], place[2]);
+        };
+        mesh.quads.push_back({corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)});
+      }
+    }
+    mesh.groups.push_back({static_cast<std::uint32_t>(mesh.quads.size() - before)});
+  };
+  add_face(0, 0);
+  add_face(1, n[1] - 1);
+  add_face(2, 0);
+  add_face(2, n[2] - 1);
+  return mesh;
+}
+
 /// The frame that a net hangs on, where its pinned particles are at the start: posts at the four corners and
 /// a bar around the top. Its radius is a fiftieth of the net's least side: 4 cm for a net 2 m deep.
 std::vector<Rod> frame_of(const Model& model, std::uint32_t first, const std::array<int, 3>& n) {
@@ -195,6 +222,7 @@ Status add_goal_net(Model& model, const ModelSettings& settings, const GoalNetSe
   }
   body.particle_count = model.particle_count() - body.first_particle;
   body.class_count = static_cast<std::uint32_t>(model.spring_classes.size()) - body.first_class;
+  body.listed_surface = meshes_of(body.first_particle, net.particles);
   body.rods = frame_of(model, body.first_particle, net.particles);
   model.bodies.push_back(std::move(body));
   return {};

@@ -36,6 +36,7 @@ Vec3 rounded_to(const Vec3& v, Precision precision) {
 
 QuadMesh surface_of(const Body& body) {
   const Lattice* const box = body.box();
+  if (body.style == SurfaceStyle::cords) return {};
   return box ? surface_of(*box, body.first_particle) : body.listed_surface;
 }
 

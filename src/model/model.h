@@ -83,11 +83,11 @@ struct Body {
   std::optional<Lattice> lattice;
 
   SurfaceStyle style = SurfaceStyle::flesh;
-  QuadMesh listed_surface;         ///< none for cords, and none where it follows from the lattice
-  double size = 0.0;               ///< of flesh: its largest extent [m], for how deep light reaches
-  BodySkin skin;                   ///< none for most
-  std::vector<Rod> rods;           ///< what it hangs on
-  bool footballs = false;          ///< balls are drawn as footballs where it is
+  QuadMesh listed_surface;  ///< none where it follows from the lattice; of cords meshes that touch, not drawn
+  double size = 0.0;        ///< of flesh: its largest extent [m], for how deep light reaches
+  BodySkin skin;            ///< none for most
+  std::vector<Rod> rods;    ///< what it hangs on
+  bool footballs = false;   ///< balls are drawn as footballs where it is
   std::optional<double> friction;  ///< μ against other bodies; absent: contact.body_friction
 
   /// The lattice from which its springs and surface follow, or nullptr.

@@ -104,7 +104,12 @@ void list_triangles_at(TouchSurfaces& all) {
 }
 
 bool has_surface(const Body& body) {
-  return body.style != SurfaceStyle::cords;
+  return body.style != SurfaceStyle::cords || !body.listed_surface.quads.empty();
+}
+
+/// The surface of a body, or the meshes of a net.
+QuadMesh touched_mesh(const Body& body) {
+  return body.style == SurfaceStyle::cords ? body.listed_surface : surface_of(body);
 }
 
 }  // namespace
@@ -113,7 +118,7 @@ TouchSurfaces touch_surfaces(const Model& model) {
   TouchSurfaces all;
   for (const Body& body : model.bodies) {
     if (!has_surface(body)) continue;
-    const QuadMesh mesh = surface_of(body);
+    const QuadMesh mesh = touched_mesh(body);
     TouchBody touch;
     touch.body = static_cast<std::uint32_t>(&body - model.bodies.data());
     touch.closed = body.style == SurfaceStyle::flesh;

@@ -71,6 +71,16 @@ class LoopBounds : public aspic::testing::GlTest {
 
   static std::string named(const std::string& kernel) { return "The kernel " + kernel + " would loop"; }
 
+  /// 40 balls that strike one coarse face of a cube, more than a particle sorts by itself.
+  static Model on_a_face() {
+    ModelSettings settings = test::cube_on_plane(2, 3.0);
+    settings.cubes[0].edge_length = 4.0;
+    settings.balls.assign(40, {0.1, 1.0, {0.3, 5.1, 0.2}, {0.0, -1.0, 0.0}, {}});
+    for (std::size_t b = 0; b < settings.balls.size(); ++b)
+      settings.balls[b].position.x += 0.01 * static_cast<double>(b);
+    return test::build(settings);
+  }
+
   /// 300 balls in one place on a cube's corner.
   static Model crowd() {
     ModelSettings settings = test::cube_on_plane(3, 3.0);
@@ -131,6 +141,8 @@ TEST_F(LoopBounds, ArePlacedInEveryKernelThatNeedsOne) {
          {"ball_find", "ball_gather", "ball_partials", "ball_exchange", "ball_particles"}) {
       EXPECT_THAT(complaint(crowd(), integrator, kernel), HasSubstr(named(kernel)));
     }
+    for (const char* kernel : {"ball_face_find", "ball_face_gather"})
+      EXPECT_THAT(complaint(on_a_face(), integrator, kernel), HasSubstr(named("ball_faces"))) << kernel;
   }
 }
 

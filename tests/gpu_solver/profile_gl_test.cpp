@@ -121,6 +121,8 @@ TEST_F(PassTimes, NameAndCountTheBallsToo) {
       EXPECT_EQ(counts.at("balls: impulses on balls"), 3 * ends);
       EXPECT_EQ(counts.at("balls: impulses on particles"), 2 * ends);
       EXPECT_EQ(counts.at("balls: empty grid and marks"), ends);
+      EXPECT_EQ(counts.at("balls: find faces"), ends);
+      EXPECT_EQ(counts.at("balls: sum faces"), 2 * ends);
       EXPECT_EQ(counts.count("balls: fill the grid"), grid ? 1u : 0u);
       EXPECT_EQ(counts.count("balls: end of the step"), solved ? 1u : 0u);
     }

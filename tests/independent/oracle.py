@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""An independent double-precision reading of Aspic's physics, for cubes on terrain.
+"""An independent double-precision reading of Aspic's physics, for cubes on terrain and balls that meet them.
 
 Written from the description in docs/ alone and sharing no code with the product, so that a misreading there
 cannot hide behind the same misreading here. Sums are taken in any order: compare within a tolerance.
@@ -13,9 +13,10 @@ import tomllib
 
 import numpy as np
 
+from oracle_balls import Balls
 from oracle_contact import CoulombStep, dot
 from oracle_implicit import backward_euler
-from oracle_scene import TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene, surface_facts
+from oracle_scene import BALL, TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene, surface_facts
 from oracle_touch import Surface, Touch
 
 COLUMNS = ["kind", "index", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"]
@@ -85,12 +86,12 @@ class World:
                           for end in (0, 1))
         self.r, self.k, self.c = (np.concatenate([s[q] for _, s in cubes]) for q in (2, 3, 4))
         self.w = np.where(self.free, 1.0 / self.m, 0.0)
-        self.touch = None
-        if contact["bodies"] or contact["self"]:
-            surfaces = [Surface(tuple(made["n"]), made["s"], made["k"], made["m"], start, self.x,
-                                contact["body-friction"] if made["mu"] is None else made["mu"])
-                        for made, start in zip((surface_facts(c) for c in scene["cube"]), starts)]
-            self.touch = Touch(self, surfaces, contact)
+        surfaces = [Surface(tuple(made["n"]), made["s"], made["k"], made["m"], start, self.x,
+                            contact["body-friction"] if made["mu"] is None else made["mu"])
+                    for made, start in zip((surface_facts(c) for c in scene["cube"]), starts)]
+        self.touch = Touch(self, surfaces, contact) if contact["bodies"] or contact["self"] else None
+        tables = [filled(b, BALL, f"ball[{i}]") for i, b in enumerate(scene["ball"])]
+        self.balls = Balls(self, tables, contact, surfaces) if tables else None
 
     def spring_force(self, x, v):
         e = x[self.a] - x[self.b]
@@ -144,6 +145,8 @@ class World:
                 x, v = self.course_response(x, v)
             else:
                 x, v = self.ground.respond(x, v, held)
+            if self.balls:
+                x, v = self.balls.step(self.v, x, v)
             good = np.all(np.isfinite(x) & np.isfinite(v), axis=1) & (np.sqrt(dot(v, v)) <= SPEED_LIMIT)
         if not good.all():
             raise Diverged(f"particle {np.flatnonzero(~good)[0]} diverged with a time step of {self.h} s")
@@ -207,6 +210,9 @@ def write_state(path, world):
         file.write(",".join(COLUMNS) + "\n")
         for index, (x, v) in enumerate(zip(world.x.tolist(), world.v.tolist())):
             file.write(",".join(["particle", str(index), *map(repr, x + v + [0.0] * 3)]) + "\n")
+        if world.balls:
+            for index, numbers in enumerate(world.balls.numbers().tolist()):
+                file.write(",".join(["ball", str(index), *map(repr, numbers)]) + "\n")
 
 
 def read_state(path):

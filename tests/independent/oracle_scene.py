@@ -32,6 +32,8 @@ CUBE = {
 CUBE_BY_SPRING = {"particle-mass": 1.0, "structural": SPRING, "shear": SPRING, "bending": SPRING}
 CUBE_BY_MATERIAL = {"material": {"density": 16.0, "youngs-modulus": 33000.0, "damping-ratio": 0.95}}
 
+BALL = {"radius": 0.3, "mass": 1.0, "position": [7.0, 2.6, 2.0], "velocity": [-49.0, -14.0, -7.0], "angular-velocity": [0.0, 0.0, 0.0]}
+
 # Face name -> (axis, whether it is the far end). A corner is three face names joined by hyphens, any order.
 FACES = {
     "left": (0, False), "right": (0, True), "bottom": (1, False), "top": (1, True),
@@ -75,11 +77,11 @@ def read_scene(path):
     """The scene with every default filled in, except those of a terrain, which depend on its shape."""
     with open(path, "rb") as file:
         scene = tomllib.load(file)
-    for kind in ("goal-net", "ball", "launcher"):
+    for kind in ("goal-net", "launcher"):
         if scene.pop(kind, None):
-            raise SceneError(f"[[{kind}]] is not covered here: cubes only.")
+            raise SceneError(f"[[{kind}]] is not covered here: cubes and balls only.")
     known = {"schema": None, "name": "", "author": "", "simulation": SIMULATION, "contact": CONTACT, "terrain": [],
-             "cube": [], "view": None}
+             "cube": [], "ball": [], "view": None}
     scene = filled(scene, known, "scene")
     if scene["schema"] != 1:
         raise SceneError(f"schema is {scene['schema']}; it must be 1.")

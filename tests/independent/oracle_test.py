@@ -40,6 +40,14 @@ rotation = {{ axis = [1.0, 0.3, 0.7], angle = {angle} }}
 velocity = {velocity}
 particle-mass = 0.8
 """
+BALL = """
+[[ball]]
+radius = {radius}
+mass = {mass}
+position = {position}
+velocity = {velocity}
+angular-velocity = {spin}
+"""
 # Name: built-in scene, settings, text appended to the scene file, how many times the usual number of steps.
 SCENES = {
     "plane": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 1.9, 0.0]"}, "", 1),
@@ -83,6 +91,13 @@ SCENES = {
     "bodies that overlap": ("cube-plane", {"contact.bodies": "true", "contact.self": "true", "cube[0].position": "[0.0, 0.6, 0.0]",
                                            "cube[0].particles": "[3, 3, 3]", "cube[0].edge-length": 1.0},
                             SECOND_CUBE.format(n=2, edge=0.6, position="[0.3, 1.3, 0.1]", angle=5.0, velocity="[0.0, 0.0, 0.0]"), 1),
+    # Balls on corners, on an edge and on a coarse face, one spinning; and on a cube that they tumble.
+    "balls": ("cube-plane", {"contact.bodies": "true", "contact.ball-restitution": 0.4, "cube[0].position": "[0.0, 0.05, 0.0]",
+                             "cube[0].particles": "[3, 2, 3]", "cube[0].edge-length": 2.0, "cube[0].rotation.axis": "[0.0, 1.0, 0.0]",
+                             "cube[0].rotation.angle": 10.0},
+              BALL.format(radius=0.2, mass=2.0, position="[-0.5, 0.9, 0.3]", velocity="[0.2, -1.0, 0.0]", spin="[0.0, 0.0, 9.0]")
+              + BALL.format(radius=0.15, mass=1.0, position="[0.55, 1.0, -0.4]", velocity="[0.0, 0.0, 0.0]", spin="[0.0, 0.0, 0.0]")
+              + BALL.format(radius=0.1, mass=0.5, position="[0.04, 1.2, 0.03]", velocity="[0.0, -2.0, 0.0]", spin="[3.0, 0.0, 0.0]"), 0.3),
     "cradle": ("cube-bowl", {"cube[0].position": "[2.1, 3.3, 1.2]", "terrain[0].friction": 0.6}, "", 1),
 }
 # Both programs work in double precision; what sets them apart is the order of sums and, for implicit-euler, where
@@ -96,7 +111,7 @@ CASES = {
 def compare(aspic, name, model, integrator, case):
     """Returns the case's name, its largest difference over all columns, and whether the terrain acted."""
     scene, placed, appended, longer = SCENES[name]
-    steps = case["steps"] * longer
+    steps = round(case["steps"] * longer)
     settings = placed | {
         "simulation.integrator": integrator, "simulation.timestep": case["timestep"], "contact.model": model,
     }
@@ -114,14 +129,17 @@ def compare(aspic, name, model, integrator, case):
         subprocess.run([aspic, "run", file, "--backend", "reference", "--precision", "double", "--steps",
                         str(steps), "--state", state], stdout=subprocess.DEVNULL, check=True)
         with open(state, newline="") as rows:
-            product = np.array([row[2:8] for row in list(csv.reader(rows))[1:]], dtype=float)
+            product = np.array([row[2:] for row in list(csv.reader(rows))[1:]], dtype=float)
         world = World(read_scene(file), Readings())
     touched = False
     for _ in range(steps):
         world.step()
         touched |= world.touch is not None and world.touch.touched
+        touched |= world.balls is not None and world.balls.touched
         touched |= any(np.any(t.distance_and_normal(world.x)[0][world.free] < world.epsilon) for t in world.terrains)
-    ours = np.hstack([world.x, world.v])
+    ours = np.hstack([world.x, world.v, np.zeros_like(world.v)])
+    if world.balls:
+        ours = np.vstack([ours, world.balls.numbers()])
     return f"{integrator}, {name}, {model}", np.abs(ours - product).max(), touched and ours.shape == product.shape
 
 

@@ -133,7 +133,10 @@ TEST(GoalNet, StandsBehindTheCubesInTheGlobalIndex) {
   const Model model = test::build(settings);
   ASSERT_EQ(model.bodies.size(), 3u);
   EXPECT_EQ(model.bodies[1].style, SurfaceStyle::cords);
-  EXPECT_TRUE(model.bodies[1].listed_surface.quads.empty());
+  EXPECT_TRUE(surface_of(model.bodies[1]).quads.empty()) << "nothing is drawn between its cords";
+  // Meshes of the back, the top and the two sides, which touch other bodies.
+  EXPECT_EQ(model.bodies[1].listed_surface.quads.size(), 3u * 4 + 4 * 2 + 2 * (2 * 3));
+  EXPECT_EQ(model.bodies[1].listed_surface.groups.size(), 4u);
   EXPECT_EQ(model.bodies[1].rods.size(), 8u) << "four posts and the bars around the top";
   EXPECT_EQ(model.bodies[1].first_particle, 27u);
   EXPECT_EQ(model.bodies[2].first_particle, 27u + model.bodies[1].particle_count);
