@@ -48,6 +48,8 @@ draw elevator 2 elevator
 draw cubes-stack 6 cubes-stack
 draw heap 3 heap
 draw squeeze 2 squeeze
+draw jelly-in-net 1 jelly-in-net
+draw knot 4 knot
 draw ball-pit 2.2 ball-pit
 draw curtain 1.25 curtain
 draw flag 2.25 flag

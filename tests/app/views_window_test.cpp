@@ -41,6 +41,8 @@ const std::vector<View>& views() {
                                         {"cubes-stack", 900},
                                         {"heap", 700},
                                         {"squeeze", 900},
+                                        {"jelly-in-net", 900},
+                                        {"knot", 900},
                                         {"course-2021-plane", 1250},
                                         {"course-2021-tilted-plane", 1050},
                                         {"course-2021-sphere", 900},
