@@ -6,7 +6,7 @@ namespace aspic {
 namespace {
 
 constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-constexpr double steps = 2048.0;  // in a unit
+constexpr double steps = skin_steps;
 
 /// Five bits a digit, and one that says that more follow.
 void append(std::string& text, std::int64_t number) {

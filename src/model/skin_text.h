@@ -8,7 +8,10 @@
 
 namespace aspic {
 
-/// Vertices are rounded to a 2,048th of a unit, to which each is written as the difference from the one
+/// Steps in a unit, to which vertices are rounded.
+inline constexpr double skin_steps = 2048.0;
+
+/// Vertices are rounded to steps, in which each is written as the difference from the one
 /// before, as the corners of triangles are; numbers are of digits in base 32, the lowest first, after a bit
 /// for the sign.
 std::string to_skin_text(const TriangleMesh& mesh);

@@ -7,6 +7,7 @@
 
 #include "base/base64.h"
 #include "model/counts.h"
+#include "model/skin_text.h"
 #include "model/springs.h"
 #include "model/terrain.h"
 #include "page/terrain_shape.h"
@@ -39,19 +40,47 @@ Json spring_class(const SpringClass& s) {
 Json body_facts(const Model& model, std::size_t index) {
   const Body& body = model.bodies[index];
   Json groups = Json::array(), rods = Json::array();
-  for (const NormalGroup& group : surface_of(body).groups) groups.push_back(group.quads);
+  if (body.skin.empty())
+    for (const NormalGroup& group : surface_of(body).groups) groups.push_back(group.quads);
   for (const Rod& r : body.rods)
     rods.push_back({r.from.x, r.from.y, r.from.z, r.to.x, r.to.y, r.to.z, r.radius});
   constexpr std::string_view styles[] = {"flesh", "sheet", "cords"};
-  return {{"first", body.first_particle},
-          {"count", body.particle_count},
-          {"firstClass", body.first_class},
-          {"lattice", body.box() ? Json(body.box()->particles) : Json()},
-          {"style", styles[static_cast<std::size_t>(body.style)]},
-          {"reach", light_reach(body)},
-          {"colour", body_colour(index)},
-          {"groups", groups},
-          {"rods", rods}};
+  Json facts = {{"first", body.first_particle},
+                {"count", body.particle_count},
+                {"firstClass", body.first_class},
+                {"lattice", body.box() ? Json(body.box()->particles) : Json()},
+                {"style", styles[static_cast<std::size_t>(body.style)]},
+                {"reach", light_reach(body)},
+                {"colour", body_colour(index)},
+                {"groups", groups},
+                {"rods", rods}};
+  if (!body.skin.empty())
+    facts["mesh"] = {{"vertices", body.skin.corners.size()},
+                     {"triangles", body.skin.triangles.size()},
+                     {"quantum", 1.0 / skin_steps}};
+  return facts;
+}
+
+/// Lists of as many indices: all first ones, then all second ones as differences from those, and so on.
+template <class List>
+void append_lists(const std::vector<List>& lists, std::string& bytes) {
+  for (std::size_t place = 0; place < List().size(); ++place) {
+    std::vector<std::int32_t> numbers;
+    for (const List& list : lists)
+      numbers.push_back(static_cast<std::int32_t>(place == 0 ? list[0] : list[place] - list[0]));
+    append_differences(numbers, bytes);
+  }
+}
+
+void append_mesh(const BodySkin& skin, std::string& bytes) {
+  append_lists(skin.corners, bytes);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<std::int32_t> steps;
+    for (const SkinVertex& vertex : skin.binding.vertices)
+      steps.push_back(static_cast<std::int32_t>(std::lround(vertex.at[axis] * skin_steps)));
+    append_differences(steps, bytes);
+  }
+  append_lists(skin.triangles, bytes);
 }
 
 Json terrain_facts(const Terrain& terrain) {
@@ -203,12 +232,10 @@ void append_shapes(const Model& model, std::string& bytes) {
   append_differences(reach, bytes);
   append_differences(classes, bytes);
   for (const Body& body : model.bodies) {
-    const QuadMesh surface = surface_of(body);
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      std::vector<std::int32_t> numbers;
-      for (const Quad& quad : surface.quads)
-        numbers.push_back(static_cast<std::int32_t>(corner == 0 ? quad[0] : quad[corner] - quad[0]));
-      append_differences(numbers, bytes);
+    if (body.skin.empty()) {
+      append_lists(surface_of(body).quads, bytes);
+    } else {
+      append_mesh(body.skin, bytes);
     }
   }
   for (const Terrain& t : model.terrain)

@@ -39,8 +39,9 @@ inline std::size_t change_vectors(const Model& model) {
 
 /// Appends what run_facts() counts: the listed springs (all first ends, then second ends, each as its
 /// difference from the one before, then classes), of each body the quads of its surface (all first corners,
-/// then the other three as differences from them), and of each terrain the surface and what is cut out of its
-/// flat part.
+/// then the other three as differences from them) or, if it has one, its mesh (of the vertices the eight
+/// particles in the same way, then x, y and z in the cell, as whole steps; then the triangles as the quads),
+/// and of each terrain the surface and what is cut out of its flat part.
 void append_shapes(const Model& model, std::string& bytes);
 
 }  // namespace aspic::page

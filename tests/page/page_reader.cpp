@@ -75,6 +75,30 @@ class Numbers {
   std::size_t at_ = 0;
 };
 
+/// Lists of as many indices: the others are differences from the first ones.
+template <std::size_t size>
+std::vector<std::array<std::uint32_t, size>> lists(Numbers& numbers, std::size_t count) {
+  std::vector<std::array<std::uint32_t, size>> all(count);
+  for (std::size_t place = 0; place < size; ++place) {
+    const auto read = numbers.next(count);
+    for (std::size_t i = 0; i < count; ++i)
+      all[i][place] = static_cast<std::uint32_t>(read[i] + (place > 0 ? all[i][0] : 0));
+  }
+  return all;
+}
+
+ReadMesh mesh_of(Numbers& numbers, const nlohmann::json& facts) {
+  ReadMesh mesh;
+  const auto vertices = facts["vertices"].get<std::size_t>();
+  mesh.corners = lists<8>(numbers, vertices);
+  const auto x = numbers.next(vertices), y = numbers.next(vertices), z = numbers.next(vertices);
+  for (std::size_t v = 0; v < vertices; ++v)
+    mesh.at.push_back(facts["quantum"].get<double>() *
+                      Vec3{static_cast<double>(x[v]), static_cast<double>(y[v]), static_cast<double>(z[v])});
+  mesh.triangles = lists<3>(numbers, facts["triangles"].get<std::size_t>());
+  return mesh;
+}
+
 struct Places {
   std::size_t count = 0;
   double quantum = 0.0;
@@ -108,10 +132,12 @@ ReadPage read_page(const std::string& html) {
   std::vector<std::array<Places, 4>> runs;
   for (const auto& run : page.facts["runs"]) {
     for (int i = 0; i < 3; ++i) numbers.next(run["listed"]);
+    page.meshes.emplace_back();
     for (const auto& body : run["bodies"]) {
+      if (body.contains("mesh")) page.meshes.back().push_back(mesh_of(numbers, body["mesh"]));
       std::size_t quads = 0;
       for (const auto& group : body["groups"]) quads += group.get<std::size_t>();
-      for (int corner = 0; corner < 4; ++corner) numbers.next(quads);
+      if (!body.contains("mesh")) lists<4>(numbers, quads);
     }
     for (const auto& terrain : run["terrain"]) {
       if (!terrain.contains("surface")) continue;

@@ -1,5 +1,6 @@
 #pragma once
 // Reads a page's file as a browser does, by code that knows nothing of the writer's.
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,9 +15,17 @@ struct ReadPicture {
   std::vector<Vec3> particles, balls, spins, changes;
 };
 
+/// The mesh of a body: of each vertex eight particles, and how far it is along x, y and z in their cell.
+struct ReadMesh {
+  std::vector<std::array<std::uint32_t, 8>> corners;
+  std::vector<Vec3> at;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
 struct ReadPage {
   nlohmann::json facts, ends;
   std::vector<std::vector<ReadPicture>> pictures;  ///< by picture, by run
+  std::vector<std::vector<ReadMesh>> meshes;       ///< by run, by body that has one
   std::string start, module;                       ///< of a live page: the state's bytes; WebAssembly
   std::string error;                               ///< what is wrong with the file; empty: nothing
 };

@@ -111,6 +111,33 @@ TEST_F(PageTest, HoldsNetsClothBallsAndTerrain) {
   }
 }
 
+// A mesh is drawn where the solver's corners put it, and instead of the faces of its cells.
+TEST_F(PageTest, HoldsTheMeshThatABodyIsDrawnAs) {
+  const Kept run("jelly-figure", {"voxels[0].cells=10"}, 20);
+  const test::ReadPage page = test::read_page(page_of(run));
+  expect_near(page, 0, run);
+  const BodySkin& skin = run.model.bodies[0].skin;
+  ASSERT_GT(skin.triangles.size(), 2000u);
+  EXPECT_TRUE(page.facts["runs"][0]["bodies"][0]["groups"].empty());
+  ASSERT_EQ(page.meshes.at(0).size(), 1u);
+  const test::ReadMesh& mesh = page.meshes[0][0];
+  EXPECT_EQ(mesh.corners, skin.corners);
+  EXPECT_EQ(mesh.triangles, skin.triangles);
+  const std::vector<Vec3>& places = run.states.back().position;
+  const std::vector<Vec3> wanted = skin_positions(skin.binding, skin.corners, places);
+  ASSERT_EQ(mesh.at.size(), wanted.size());
+  for (std::size_t v = 0; v < wanted.size(); ++v) {
+    Vec3 sum;
+    for (std::size_t n = 0; n < 8; ++n) {
+      const double x = (n & 4u) != 0 ? mesh.at[v].x : 1.0 - mesh.at[v].x,
+                   y = (n & 2u) != 0 ? mesh.at[v].y : 1.0 - mesh.at[v].y,
+                   z = (n & 1u) != 0 ? mesh.at[v].z : 1.0 - mesh.at[v].z;
+      sum = sum + (x * y * z) * places[mesh.corners[v][n]];
+    }
+    EXPECT_LT(length(sum - wanted[v]), 1e-12) << v;
+  }
+}
+
 TEST_F(PageTest, TakesFewerPicturesAtFewerASecondAndMoreInSlowMotion) {
   const Kept run("cube-plane", {"cube[0].particles-per-edge=2"}, 100);
   EXPECT_EQ(test::read_page(page_of(run, {.fps = 20.0})).pictures.size(), 3u);

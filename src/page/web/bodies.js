@@ -21,8 +21,8 @@ function lightRows(towards) {
 class Bodies {
   constructor(device, run) {
     const { gl } = device, { facts } = run;
-    Object.assign(this, { device, run, facts, motion: new Motion(run), springs: new Springs(run) });
-    const rows = Math.max(1, Math.ceil(facts.particles / textureWidth));
+    Object.assign(this, { device, run, facts, motion: new Motion(run), springs: new Springs(run), meshes: new Meshes(facts) });
+    const rows = Math.max(1, Math.ceil(this.meshes.end / textureWidth));
     this.texels = new Float32Array(4 * textureWidth * rows);
     this.rows = rows;
     this.particles = device.texture(gl.RGBA32F, textureWidth, rows, { filter: gl.NEAREST });
@@ -109,6 +109,7 @@ class Bodies {
         texels[4 * p + 3] = springs.particleValue(look.colour, p, x, v);
       }
     }
+    if (look.solid) this.meshes.move(texels);
     this.device.bind(0, this.particles);
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, textureWidth, this.rows, gl.RGBA, gl.FLOAT, texels);
     if (scaled && look.colour !== "speed")

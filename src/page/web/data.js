@@ -91,16 +91,30 @@ class Run {
     const a = await data.numbers(listed), reach = await data.numbers(listed);
     this.listed = { a, b: reach.map((r, i) => a[i] + r), classes: await data.numbers(listed) };
     for (const body of bodies) {
-      const count = body.groups.reduce((sum, quads) => sum + quads, 0), first = await data.numbers(count);
-      body.quads = [first];
-      for (let corner = 1; corner < 4; ++corner)
-        body.quads.push((await data.numbers(count)).map((r, i) => first[i] + r));
+      body.quads = [];
+      if (body.mesh) await this.readMesh(data, body.mesh);
+      else body.quads = await this.readLists(data, body.groups.reduce((sum, quads) => sum + quads, 0), 4);
     }
     for (const t of terrain) {
       if (!t.surface) continue;
       t.surface.numbers = await data.numbers(3 * (t.surface.rings + 1) * (t.surface.sectors + 1));
       if (t.flat) t.surface.offs = await data.numbers(t.surface.side ** 2);
     }
+  }
+
+  // Lists of `places` indices each: all first ones, then the others as differences from those.
+  async readLists(data, count, places) {
+    const first = await data.numbers(count), all = [first];
+    while (all.length < places) all.push((await data.numbers(count)).map((r, i) => first[i] + r));
+    return all;
+  }
+
+  // Of each vertex the particles at the corners of its cell and its place in it, and triangles.
+  async readMesh(data, mesh) {
+    mesh.corners = await this.readLists(data, mesh.vertices, 8);
+    mesh.at = [];
+    for (let axis = 0; axis < 3; ++axis) mesh.at.push(Float32Array.from(await data.numbers(mesh.vertices), (steps) => steps * mesh.quantum));
+    mesh.corner = await this.readLists(data, mesh.triangles, 3);
   }
 
   async readPicture(data) {

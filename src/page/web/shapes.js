@@ -1,12 +1,68 @@
 // What is drawn, as arrays for the device: skins, springs' ends, terrain, rods.
 
+const ownNormal = 0xffffffff;  // in place of a vertex's last neighbour
+
+// Meshes that follow particles. Each vertex has two texels after those of the particles: where it is, its normal.
+class Meshes {
+  constructor(facts) {
+    this.list = facts.bodies.flatMap(({ mesh }) => mesh ?? []);
+    this.end = facts.particles;  // of the texels
+    for (const mesh of this.list) {
+      const { vertices, at } = mesh, part = (axis, high, v) => (high ? at[axis][v] : 1 - at[axis][v]);
+      mesh.first = this.end;
+      this.end += 2 * vertices;
+      mesh.weights = mesh.corners.map((_, n) => Float32Array.from({ length: vertices }, (__, v) => part(0, n & 4, v) * part(1, n & 2, v) * part(2, n & 1, v)));
+    }
+  }
+
+  // Trilinear means of the cells' corners, colours too; then normals: means of the triangles, weighted by area (src/model/skin.h).
+  move(texels) {
+    for (const mesh of this.list) {
+      const begin = 4 * mesh.first, { vertices } = mesh;
+      texels.fill(0, begin, begin + 8 * vertices);
+      mesh.corners.forEach((corner, n) => {
+        const weights = mesh.weights[n];
+        for (let v = 0, to = begin; v < vertices; ++v, to += 8)
+          for (let c = 0, from = 4 * corner[v]; c < 4; ++c) texels[to + c] += weights[v] * texels[from + c];
+      });
+      this.turn(mesh, texels, begin);
+    }
+  }
+
+  turn({ vertices, triangles, corner: [first, second, third] }, texels, begin) {
+    for (let t = 0; t < triangles; ++t) {
+      const a = begin + 8 * first[t], b = begin + 8 * second[t], c = begin + 8 * third[t];
+      const x = texels[a], y = texels[a + 1], z = texels[a + 2];
+      const ux = texels[b] - x, uy = texels[b + 1] - y, uz = texels[b + 2] - z;
+      const vx = texels[c] - x, vy = texels[c + 1] - y, vz = texels[c + 2] - z;
+      const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+      for (let at = a, k = 0; k < 3; ++k, at = k === 1 ? b : c) {
+        texels[at + 4] += nx;
+        texels[at + 5] += ny;
+        texels[at + 6] += nz;
+      }
+    }
+    for (let v = 0, n = begin + 4; v < vertices; ++v, n += 8) {
+      const size = Math.hypot(texels[n], texels[n + 1], texels[n + 2]);
+      if (size === 0) texels[n + 1] = 1;
+      else for (let c = 0; c < 3; ++c) texels[n + c] /= size;
+    }
+  }
+}
+
 // The skins of a run by body: each vertex is a particle with its neighbours along the quads of its group of normals: along
-// the side from a quad's corner 0 to 1 the next and the one before, likewise from corner 0 to 3; itself where there is none.
+// the side from a quad's corner 0 to 1 the next and the one before, likewise from corner 0 to 3; itself where there is none. Of a mesh
+// it is the vertex's own texel, with that of its normal.
 function skins(facts) {
   const vertices = [], indices = [], parts = [];
   for (const body of facts.bodies) {
     const first = indices.length;
     let quad = 0;
+    if (body.mesh) {
+      const { first: texel, vertices: count, triangles, corner } = body.mesh, from = vertices.length / 5;
+      for (let v = 0; v < count; ++v) vertices.push(texel + 2 * v, texel + 2 * v + 1, 0, 0, ownNormal);
+      for (let t = 0; t < triangles; ++t) for (const list of corner) indices.push(from + list[t]);
+    }
     for (const quads of body.groups) {
       const known = new Map();
       const vertex = (particle) => {

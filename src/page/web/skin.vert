@@ -1,4 +1,4 @@
-// A vertex of a skin is a particle; its neighbours along the patch say its normal. LIGHT: as a light sees it.
+// A vertex of a skin is a particle, whose neighbours along the patch say its normal, or a mesh's own. LIGHT: as a light sees it.
 #include "frame.glsl"
 #include "particles.glsl"
 #ifdef LIGHT
@@ -17,8 +17,9 @@ void main() {
   vec4 p = particle(self);
   world = p.xyz;
   shown = p.w;
-  surface_normal = cross(particle(neighbours.x).xyz - particle(neighbours.y).xyz,
-                         particle(neighbours.z).xyz - particle(neighbours.w).xyz);
+  if (neighbours.w == 0xffffffffu) surface_normal = particle(neighbours.x).xyz;
+  else surface_normal = cross(particle(neighbours.x).xyz - particle(neighbours.y).xyz,
+                              particle(neighbours.z).xyz - particle(neighbours.w).xyz);
   from_eye = viewer.w > 0.0 ? world - eye.xyz : dot(world - eye.xyz, viewer.xyz) * viewer.xyz;
 #ifdef LIGHT
   vec3 q = in_light(light, world);

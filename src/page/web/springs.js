@@ -4,8 +4,8 @@ const drawnSprings = 1000000;  // of larger runs those of the skin are drawn
 // Every particle of a run's skins.
 function skinOf(facts) {
   const skin = new Uint8Array(facts.particles);
-  for (const { quads } of facts.bodies)
-    for (const corner of quads) for (const particle of corner) skin[particle] = 1;
+  for (const { quads, mesh } of facts.bodies)
+    for (const corner of mesh ? mesh.corners : quads) for (const particle of corner) skin[particle] = 1;
   return skin;
 }
 
@@ -32,7 +32,7 @@ class Springs {
     const skin = skinOf(run.facts), { particles, springs, bodies } = run.facts;
     this.run = run;
     this.large = springs > drawnSprings;
-    const solid = bodies.some((body) => body.groups.length > 0);
+    const solid = bodies.some((body) => body.groups.length > 0 || body.mesh);
     const a = [], b = [], classes = [], counts = new Uint32Array(particles + 1);
     eachSpring(run, (p, q, own) => {
       if (this.large && !(solid ? skin[p] || skin[q] : true)) return;
