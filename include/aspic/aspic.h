@@ -6,6 +6,7 @@
 
 #include "aspic/analysis.h"    // measure(), compare_states(), stability_limit()
 #include "aspic/batch.h"       // Batch: many models stepped together
+#include "aspic/body_mesh.h"   // body_mesh(): what bodies of cells are drawn as
 #include "aspic/error.h"       // Result, Status, Error, worded()
 #include "aspic/files.h"       // write_state(), read_checkpoint(), write_checkpoint()
 #include "aspic/inputs.h"      // Inputs: pulls, pins, channels; InputLog

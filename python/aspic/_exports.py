@@ -136,10 +136,29 @@ def model_arrays(scene: Scene) -> dict[str, Any]:
         "model.skin": np.concatenate([np.empty((0, 4), np.uint32), *skins]),
         "model.skin-body": np.repeat(np.arange(len(bodies), dtype=np.int32), [len(skin) for skin in skins]),
     }
+    arrays |= _meshes([core.mesh(b) for b in range(len(bodies))])
     if balls:
         arrays["model.ball-radius"] = np.array([ball.radius for ball in balls])
         arrays["model.ball-mass"] = np.array([ball.mass for ball in balls])
     return arrays
+
+
+def _meshes(of_bodies: list[tuple[Any, Any, Any]]) -> dict[str, Any]:
+    """What is drawn on bodies of cells; nothing where no body has a mesh."""
+    import numpy as np
+
+    counts = [len(corners) for corners, _, _ in of_bodies]
+    if not any(counts):
+        return {}
+    first = np.cumsum([0, *counts[:-1]])
+    return {
+        "model.mesh-corners": np.concatenate([corners for corners, _, _ in of_bodies]),
+        "model.mesh-weights": np.concatenate([weights for _, weights, _ in of_bodies]),
+        "model.mesh-body": np.repeat(np.arange(len(counts), dtype=np.int32), counts),
+        "model.mesh-triangles": np.concatenate(
+            [triangles + np.uint32(n) for n, (_, _, triangles) in zip(first, of_bodies)]
+        ),
+    }
 
 
 def needs(package: str, use: str) -> ModuleNotFoundError:

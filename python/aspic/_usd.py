@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import functools
+import operator
 import re
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ._errors import UsageError
@@ -13,6 +16,9 @@ if TYPE_CHECKING:
 
 __all__ = ["write"]
 
+# What points of a prim have of a sample of all particles or springs.
+Follow = Callable[[Any], Any]
+
 # USD plays integer time codes; Blender has as many frames a second.
 PER_SECOND = 24.0
 # Of which more than the numbers alone is known: of particles, and of springs.
@@ -21,7 +27,7 @@ OF_SPRINGS = ("strain", "tension")
 
 
 def write(path: str, trajectory: Trajectory, springs: bool) -> None:
-    """The skins of bodies as Mesh, particles as Points, springs as BasisCurves, balls as Sphere.
+    """Bodies' skins as Mesh, particles as Points, springs as BasisCurves, balls as Sphere.
 
     ``path``: it ends in .usd, .usda or .usdc; ``springs``: also those of bodies that have a skin. Raises UsageError
     where positions were not recorded; ModuleNotFoundError without usd-core.
@@ -58,6 +64,26 @@ def identifier(name: str) -> str:
     return re.sub(r"\W+", "_", name).strip("_")
 
 
+def of_particles(which: Any) -> Follow:
+    """Of points that are particles: what those have. The same of springs."""
+    return lambda sample: sample[which]
+
+
+def of_cells(corners: Any, weights: Any) -> Follow:
+    """Of vertices of a mesh: the mean of the corners of their cells, of whole numbers the nearest corner's."""
+    import numpy as np
+
+    nearest = np.take_along_axis(corners, weights.argmax(axis=1)[:, None], axis=1)[:, 0]
+
+    def values(sample: Any) -> Any:
+        if sample.dtype.kind in "bui":
+            return sample[nearest]
+        parts = [(weight * sample[corner].T).T for weight, corner in zip(weights.T, corners.T)]
+        return functools.reduce(operator.add, parts)
+
+    return values
+
+
 class _Writer:
     def __init__(self, stage: Any, trajectory: Trajectory, codes: list[float]):
         self._stage = stage
@@ -75,25 +101,41 @@ class _Writer:
         place = f"/aspic/{identifier(name)}"
         UsdGeom.Xform.Define(self._stage, place)
         particles = np.flatnonzero(model["model.body"] == number)
-        skin = model["model.skin"][model["model.skin-body"] == number]
+        skin = self._skin_of(number)
         self._particles(f"{place}/particles", particles)
-        if len(skin):
-            self._skin(f"{place}/skin", skin)
-        if springs or not len(skin):
+        if skin:
+            self._skin(f"{place}/skin", *skin)
+        if springs or not skin:
             of_body = model["model.body"][model["model.springs"][:, 0]] == number
-            self._springs(f"{place}/springs", np.flatnonzero(of_body), guide=len(skin) > 0)
+            self._springs(f"{place}/springs", np.flatnonzero(of_body), guide=skin is not None)
 
-    def _skin(self, place: str, skin: Any) -> None:
+    def _skin_of(self, number: int) -> tuple[Any, Follow] | None:
+        """Faces, and what their vertices follow; None: the body has no surface."""
+        import numpy as np
+
+        model = self._trajectory.model
+        of_body = model["model.mesh-body"] == number if "model.mesh-body" in model else np.zeros(0, bool)
+        if of_body.any():
+            vertices = np.flatnonzero(of_body)
+            triangles = model["model.mesh-triangles"].astype(np.int64) - vertices[0]
+            own = ((triangles >= 0) & (triangles < len(vertices))).all(axis=1)
+            return triangles[own], of_cells(model["model.mesh-corners"][vertices], model["model.mesh-weights"][vertices])
+        quads = model["model.skin"][model["model.skin-body"] == number]
+        if not len(quads):
+            return None
+        particles, corners = np.unique(quads, return_inverse=True)
+        return corners.reshape(quads.shape), of_particles(particles)
+
+    def _skin(self, place: str, faces: Any, follow: Follow) -> None:
         import numpy as np
         from pxr import UsdGeom, Vt
 
-        vertices, corners = np.unique(skin, return_inverse=True)
         mesh = UsdGeom.Mesh.Define(self._stage, place)
-        mesh.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(np.full(len(skin), 4, np.int32)))
-        mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(corners.reshape(-1).astype(np.int32)))
+        mesh.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(np.full(len(faces), faces.shape[1], np.int32)))
+        mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(faces.reshape(-1).astype(np.int32)))
         mesh.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
         mesh.CreateDoubleSidedAttr(True)
-        self._points(mesh, vertices, UsdGeom.Tokens.vertex)
+        self._points(mesh, follow, UsdGeom.Tokens.vertex)
 
     def _particles(self, place: str, particles: Any) -> None:
         from pxr import UsdGeom, Vt
@@ -103,7 +145,7 @@ class _Writer:
         points.CreateIdsAttr(Vt.Int64Array.FromNumpy(particles.astype("int64")))
         points.CreateWidthsAttr(Vt.FloatArray([self._width()]))
         points.SetWidthsInterpolation(UsdGeom.Tokens.constant)
-        self._points(points, particles, UsdGeom.Tokens.vertex)
+        self._points(points, of_particles(particles), UsdGeom.Tokens.vertex)
 
     def _springs(self, place: str, springs: Any, guide: bool) -> None:
         import numpy as np
@@ -117,9 +159,9 @@ class _Writer:
         curves.CreateWidthsAttr(Vt.FloatArray([0.5 * self._width()]))
         curves.SetWidthsInterpolation(UsdGeom.Tokens.constant)
         ends = self._trajectory.model["model.springs"][springs].reshape(-1)
-        self._places(curves, ends)
+        self._places(curves, of_particles(ends))
         for name in OF_SPRINGS:
-            self._primvar(curves, name, springs, UsdGeom.Tokens.uniform)
+            self._primvar(curves, name, of_particles(springs), UsdGeom.Tokens.uniform)
 
     def balls(self) -> None:
         """Spheres that do not turn."""
@@ -138,29 +180,29 @@ class _Writer:
         rest = self._trajectory.model["model.rest-length"]
         return float(rest.min()) / 10 if len(rest) else 0.01
 
-    def _points(self, prim: Any, particles: Any, interpolation: Any) -> None:
+    def _points(self, prim: Any, follow: Follow, interpolation: Any) -> None:
         from pxr import Vt
 
-        self._places(prim, particles)
+        self._places(prim, follow)
         if self._velocities is not None:
             velocities = prim.CreateVelocitiesAttr()
             for code, sample in zip(self._codes, self._velocities):
-                velocities.Set(Vt.Vec3fArray.FromNumpy(sample[particles].astype("float32")), code)
+                velocities.Set(Vt.Vec3fArray.FromNumpy(follow(sample).astype("float32")), code)
         for name in OF_PARTICLES:
-            self._primvar(prim, name, particles, interpolation)
+            self._primvar(prim, name, follow, interpolation)
 
-    def _places(self, prim: Any, particles: Any) -> None:
+    def _places(self, prim: Any, follow: Follow) -> None:
         import numpy as np
         from pxr import Vt
 
         points, extent = prim.CreatePointsAttr(), prim.CreateExtentAttr()
         for code, sample in zip(self._codes, self._positions):
-            places = sample[particles].astype(np.float32)
+            places = follow(sample).astype(np.float32)
             points.Set(Vt.Vec3fArray.FromNumpy(places), code)
             ends = np.stack([places.min(axis=0), places.max(axis=0)])
             extent.Set(Vt.Vec3fArray.FromNumpy(ends), code)
 
-    def _primvar(self, prim: Any, name: str, which: Any, interpolation: Any) -> None:
+    def _primvar(self, prim: Any, name: str, follow: Follow, interpolation: Any) -> None:
         from pxr import Sdf, UsdGeom, Vt
 
         series = self._trajectory.get(name)
@@ -173,4 +215,4 @@ class _Writer:
         kind, array = types[series.ndim]
         primvar = UsdGeom.PrimvarsAPI(prim).CreatePrimvar(name.replace("-", "_"), kind, interpolation)
         for code, sample in zip(self._codes, series):
-            primvar.Set(array.FromNumpy(sample[which].astype("float32")), code)
+            primvar.Set(array.FromNumpy(follow(sample).astype("float32")), code)

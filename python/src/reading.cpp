@@ -1,5 +1,7 @@
 #include "reading.h"
 
+#include <aspic/body_mesh.h>
+
 namespace aspic::python {
 
 Diverged told(const std::optional<Divergence>& divergence) {
@@ -82,6 +84,22 @@ Array<std::uint32_t> surface(const Model& model, std::size_t body) {
   std::vector<std::uint32_t> corners;
   for (const Quad& quad : quads) corners.insert(corners.end(), quad.begin(), quad.end());
   return as_array(std::move(corners), {quads.size(), 4});
+}
+
+MeshArrays mesh(const Model& model, std::size_t body) {
+  if (body >= particle_ranges(model).size()) throw nb::index_error("no such body");
+  const BodyMesh found = body_mesh(model, body);
+  const std::size_t vertices = found.corners.size();
+  std::vector<std::uint32_t> corners, triangles;
+  std::vector<double> weights;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    corners.insert(corners.end(), found.corners[v].begin(), found.corners[v].end());
+    weights.insert(weights.end(), found.weights[v].begin(), found.weights[v].end());
+  }
+  for (const auto& triangle : found.triangles)
+    triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+  return MeshArrays(as_array(std::move(corners), {vertices, 8}), as_array(std::move(weights), {vertices, 8}),
+                    as_array(std::move(triangles), {found.triangles.size(), 3}));
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges(const Model& model) {

@@ -37,6 +37,8 @@ using QuantityArrays = std::tuple<Array<double>, Array<double>, Array<double>, A
 /// Ends, stiffness, damping, rest length, type, whether it is a cord: an array of each.
 using SpringArrays = std::tuple<Array<std::uint32_t>, Array<double>, Array<double>, Array<double>,
                                 Array<std::uint8_t>, Array<std::uint8_t>>;
+/// Of a mesh that is drawn on a body: particles and weights of vertices, vertices of triangles.
+using MeshArrays = std::tuple<Array<std::uint32_t>, Array<double>, Array<std::uint32_t>>;
 
 Diverged told(const std::optional<Divergence>& divergence);
 InputRows rows_of(const Inputs& inputs);
@@ -48,6 +50,8 @@ Array<std::uint32_t> pinned(const Model& model);
 SpringArrays springs(const Model& model);
 /// Raises IndexError for a body that there is not.
 Array<std::uint32_t> surface(const Model& model, std::size_t body);
+/// Corners, weights and triangles. Raises IndexError for a body that there is not.
+MeshArrays mesh(const Model& model, std::size_t body);
 std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges(const Model& model);
 std::vector<std::tuple<double, double, std::uint64_t>> balls(const Model& model);
 
@@ -98,6 +102,9 @@ void bind_reading(nb::class_<T>& bound) {
       .def(
           "surface", [](T& t, std::size_t body) { return surface(*t.model(), body); }, nb::arg("body"),
           "Four corners each.")
+      .def(
+          "mesh", [](T& t, std::size_t body) { return mesh(*t.model(), body); }, nb::arg("body"),
+          "Corners and weights of vertices, vertices of triangles.")
       .def(
           "ranges", [](T& t) { return ranges(*t.model()); }, "First particle and count of each body.")
       .def(

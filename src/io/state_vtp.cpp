@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
-#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -14,6 +15,7 @@
 
 #include "analysis/particle_force.h"
 #include "aspic/analysis.h"
+#include "aspic/body_mesh.h"
 #include "io/state_csv.h"
 #include "model/springs.h"
 
@@ -81,23 +83,67 @@ struct Cells {
   }
 };
 
-/// Vectors of particles, then of balls, in the precision of the run.
+/// The vertices of all bodies' meshes, which are points after particles and balls.
+class MeshVertices {
+ public:
+  explicit MeshVertices(const Model& model) {
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      first_.push_back(corners_.size());
+      const BodyMesh mesh = body_mesh(model, b);
+      corners_.insert(corners_.end(), mesh.corners.begin(), mesh.corners.end());
+      weights_.insert(weights_.end(), mesh.weights.begin(), mesh.weights.end());
+    }
+  }
+  std::size_t count() const { return corners_.size(); }
+  std::size_t first(std::size_t body) const { return first_[body]; }
+
+  /// What the particles of each vertex have in the mean.
+  template <class V>
+  std::vector<V> means(const std::vector<V>& of_particles) const {
+    std::vector<V> result;
+    result.reserve(count());
+    for (std::size_t v = 0; v < count(); ++v) {
+      V sum = weights_[v][0] * of_particles[corners_[v][0]];
+      for (std::size_t n = 1; n < 8; ++n) sum = sum + weights_[v][n] * of_particles[corners_[v][n]];
+      result.push_back(sum);
+    }
+    return result;
+  }
+  /// Of the particle nearest to it in its cell.
+  std::vector<std::uint8_t> nearest(const std::vector<std::uint8_t>& of_particles) const {
+    std::vector<std::uint8_t> result;
+    for (std::size_t v = 0; v < count(); ++v) {
+      const auto most = std::ranges::max_element(weights_[v]) - weights_[v].begin();
+      result.push_back(of_particles[corners_[v][static_cast<std::size_t>(most)]]);
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::size_t> first_;  // by body
+  std::vector<std::array<std::uint32_t, 8>> corners_;
+  std::vector<std::array<double, 8>> weights_;
+};
+
+/// Vectors of particles, of balls and of vertices, in the precision of the run.
 template <class T>
-std::vector<T> flat(std::span<const Vec3> particles, std::span<const Vec3> balls) {
+std::vector<T> flat(const std::vector<Vec3>& particles, const std::vector<Vec3>& balls,
+                    const std::vector<Vec3>& vertices) {
   std::vector<T> numbers;
-  numbers.reserve(3 * (particles.size() + balls.size()));
-  for (const auto& part : {particles, balls})
-    for (const Vec3& v : part)
+  numbers.reserve(3 * (particles.size() + balls.size() + vertices.size()));
+  for (const auto* part : {&particles, &balls, &vertices})
+    for (const Vec3& v : *part)
       for (const double x : {v.x, v.y, v.z}) numbers.push_back(static_cast<T>(x));
   return numbers;
 }
 
 /// The same of numbers.
 template <class T>
-std::vector<T> flat(const std::vector<double>& particles, const std::vector<double>& balls) {
+std::vector<T> flat(const std::vector<double>& particles, const std::vector<double>& balls,
+                    const std::vector<double>& vertices) {
   std::vector<T> numbers;
-  numbers.reserve(particles.size() + balls.size());
-  for (const auto* part : {&particles, &balls})
+  numbers.reserve(particles.size() + balls.size() + vertices.size());
+  for (const auto* part : {&particles, &balls, &vertices})
     for (const double x : *part) numbers.push_back(static_cast<T>(x));
   return numbers;
 }
@@ -120,8 +166,7 @@ BallQuantities ball_quantities(const Model& model, const State& state, const Inp
 
 template <class T>
 void write_points(Document& document, const Model& model, const State& state, const StateQuantities& q,
-                  const Inputs& inputs) {
-  const std::vector<Vec3> no_turning(model.particle_count());
+                  const MeshVertices& meshes, const Inputs& inputs) {
   std::vector<double> mass(model.mass.begin(), model.mass.end()), radius(model.particle_count(), 0.0);
   std::vector<std::uint8_t> pinned;
   for (const double w : model.inverse_mass) pinned.push_back(w == 0.0 ? 1 : 0);
@@ -130,31 +175,40 @@ void write_points(Document& document, const Model& model, const State& state, co
     radius.push_back(ball.radius);
     pinned.push_back(0);
   }
+  mass.resize(mass.size() + meshes.count());
+  radius.resize(mass.size());
+  pinned.resize(mass.size());
+  const auto vectors = [&](std::string_view name, const std::vector<Vec3>& particles,
+                           const std::vector<Vec3>& balls) {
+    document.array(name, flat<T>(particles, balls, meshes.means(particles)), 3);
+  };
   document.add("<Points>\n");
-  document.array("position", flat<T>(state.position, state.ball_position), 3);
+  vectors("position", state.position, state.ball_position);
   document.add("</Points>\n<PointData Vectors=\"velocity\">\n");
-  document.array("velocity", flat<T>(state.velocity, state.ball_velocity), 3);
-  document.array("angular-velocity", flat<T>(no_turning, state.ball_angular_velocity), 3);
+  vectors("velocity", state.velocity, state.ball_velocity);
+  vectors("angular-velocity", std::vector<Vec3>(model.particle_count()), state.ball_angular_velocity);
   document.array("mass", mass);
   document.array("radius", radius);
   document.array("pinned", pinned);
   const BallQuantities balls = ball_quantities(model, state, inputs);
-  const std::vector<double> no_springs(model.ball_count());
-  const std::vector<Vec3> no_contact(model.ball_count());
-  std::vector<std::uint8_t> contact = q.contact;
+  std::vector<std::uint8_t> contact = q.contact, of_vertices = meshes.nearest(q.contact);
   contact.resize(contact.size() + model.ball_count());
-  document.array("speed", flat<T>(q.speed, balls.speed));
-  document.array("mean-strain", flat<T>(q.mean_strain, no_springs));
-  document.array("force", flat<T>(q.force, balls.force), 3);
-  document.array("contact-force", flat<T>(q.contact_force, no_contact), 3);
+  contact.insert(contact.end(), of_vertices.begin(), of_vertices.end());
+  document.array("speed", flat<T>(q.speed, balls.speed, meshes.means(q.speed)));
+  document.array("mean-strain", flat<T>(q.mean_strain, std::vector<double>(model.ball_count()),
+                                        meshes.means(q.mean_strain)));
+  vectors("force", q.force, balls.force);
+  vectors("contact-force", q.contact_force, std::vector<Vec3>(model.ball_count()));
   document.array("contact", contact);
   document.add("</PointData>\n");
 }
 
 /// Cells with the number of their body, −1 for balls; of springs also type, strain and tension.
 template <class T>
-void write_cells(Document& document, const Model& model, const StateQuantities& q) {
-  Cells balls, springs, quads;
+void write_cells(Document& document, const Model& model, const StateQuantities& q,
+                 const MeshVertices& meshes) {
+  const std::uint64_t first_vertex = std::uint64_t{model.particle_count()} + model.ball_count();
+  Cells balls, springs, faces;
   std::vector<std::int32_t> body(model.ball_count(), -1);
   std::vector<std::uint8_t> type(model.ball_count(), 255);
   for (std::uint64_t b = 0; b < model.ball_count(); ++b) balls.add({model.particle_count() + b});
@@ -168,12 +222,14 @@ void write_cells(Document& document, const Model& model, const StateQuantities& 
     type.push_back(static_cast<std::uint8_t>(model.spring_classes[s.spring_class].type));
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    for (const auto& [p, q1, r, s] : surface_of(model.bodies[b]).quads) {
-      quads.add({p, q1, r, s});
-      body.push_back(static_cast<std::int32_t>(b));
-      type.push_back(255);
-    }
+    const BodySkin& skin = model.bodies[b].skin;
+    const std::uint64_t first = first_vertex + meshes.first(b);
+    for (const auto& [t, u, v] : skin.triangles) faces.add({first + t, first + u, first + v});
+    if (skin.empty())
+      for (const auto& [p, q1, r, s] : surface_of(model.bodies[b]).quads) faces.add({p, q1, r, s});
+    body.resize(balls.ends.size() + springs.ends.size() + faces.ends.size(), static_cast<std::int32_t>(b));
   }
+  type.resize(body.size(), 255);
   std::vector<double> strain(model.ball_count());
   strain.insert(strain.end(), q.strain.begin(), q.strain.end());
   strain.resize(body.size());
@@ -182,7 +238,7 @@ void write_cells(Document& document, const Model& model, const StateQuantities& 
   tension.resize(body.size());
   balls.write(document, "Verts");
   springs.write(document, "Lines");
-  quads.write(document, "Polys");
+  faces.write(document, "Polys");
   document.add("<CellData Scalars=\"strain\">\n");
   document.array("body", body);
   document.array("spring-type", type);
@@ -198,8 +254,10 @@ Status write_state_vtp(AtomicFile& file, const Sample& sample) {
   const State& state = sample.state;
   const Inputs inputs = sample.inputs ? *sample.inputs : Inputs();
   ASPIC_CHECK(check_finite(state, file.path()));
-  std::uint64_t quads = 0;
-  for (const Body& body : model.bodies) quads += surface_of(body).quads.size();
+  const MeshVertices meshes(model);
+  std::uint64_t faces = 0;
+  for (const Body& body : model.bodies)
+    faces += body.skin.empty() ? surface_of(body).quads.size() : body.skin.triangles.size();
   Document document;
   document.add(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
@@ -211,12 +269,12 @@ Status write_state_vtp(AtomicFile& file, const Sample& sample) {
   document.add(fmt::format(
       "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"{}\">\n",
-      std::uint64_t{model.particle_count()} + model.ball_count(), model.ball_count(), spring_count(model),
-      quads));
+      model.particle_count() + std::uint64_t{model.ball_count()} + meshes.count(), model.ball_count(),
+      spring_count(model), faces));
   const StateQuantities quantities = quantities_of(model, state, inputs);
   const auto write = [&]<class T>(T) {
-    write_points<T>(document, model, state, quantities, inputs);
-    write_cells<T>(document, model, quantities);
+    write_points<T>(document, model, state, quantities, meshes, inputs);
+    write_cells<T>(document, model, quantities, meshes);
   };
   state.precision == Precision::single ? write(0.0f) : write(0.0);
   document.add("</Piece>\n</PolyData>\n");

@@ -1,6 +1,6 @@
 #pragma once
 // A state as VTK PolyData in XML, which ParaView, PyVista and VTK read: particles and balls as points, balls
-// as vertices, springs as lines, surfaces as quadrilaterals.
+// as vertices, springs as lines, surfaces as quadrilaterals, meshes as triangles.
 #include "aspic/files.h"
 #include "base/result.h"
 #include "io/atomic_file.h"

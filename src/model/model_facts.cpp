@@ -2,6 +2,7 @@
 #include <numeric>
 #include <utility>
 
+#include "aspic/body_mesh.h"
 #include "aspic/model.h"
 #include "base/result.h"
 #include "model/model.h"
@@ -50,6 +51,13 @@ std::vector<SpringFacts> spring_facts(const Model& model) {
 
 std::vector<Quad> surface_quads(const Model& model, std::size_t body) {
   return surface_of(model.bodies[body]).quads;
+}
+
+BodyMesh body_mesh(const Model& model, std::size_t body) {
+  const BodySkin& skin = model.bodies[body].skin;
+  BodyMesh mesh = {skin.corners, {}, skin.triangles};
+  for (const SkinVertex& vertex : skin.binding.vertices) mesh.weights.push_back(corner_weights(vertex.at));
+  return mesh;
 }
 
 std::vector<BallFacts> ball_facts(const Model& model) {

@@ -9,9 +9,11 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/state_sink.h"
+#include "model/skin_text.h"
 #include "model/springs.h"
 #include "support/model_building.h"
 #include "support/random_state.h"
@@ -184,6 +186,62 @@ TEST(StateVtp, HasSpringsAsLinesSurfacesAsQuadsAndBallsAsVertices) {
   const auto radius = file.array<double>("PointData", "radius", "Float64");
   EXPECT_EQ(radius[0], 0.0);
   EXPECT_EQ(radius.back(), 0.5);
+}
+
+// A body of two cells that is drawn as a tetrahedron, before a cloth and a ball.
+TEST(StateVtp, HasMeshesAsTrianglesInPlaceOfTheSurface) {
+  TriangleMesh tetrahedron;
+  tetrahedron.vertices = {{-0.25, 0.0, 0.0}, {1.25, 0.5, 0.0}, {0.5, 1.0, 1.0}, {0.5, 0.25, 2.25}};
+  tetrahedron.triangles = {{2, 1, 0}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  ModelSettings settings;
+  settings.voxels.resize(1);
+  settings.voxels[0].layers = {{"1", "1"}};
+  settings.voxels[0].skin = to_skin_text(tetrahedron);
+  settings.cloths.resize(1);
+  settings.cloths[0].particles = {2, 2};
+  settings.balls.resize(1);
+  const Model model = test::build(settings);
+  const std::size_t body = model.bodies[0].skin.empty() ? 1 : 0;
+  const BodySkin& skin = model.bodies[body].skin;
+  State state = initial_state(model, Precision::double_);
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    const auto d = static_cast<double>(i);
+    state.position[i] = state.position[i] + Vec3{0.01 * d, 0.002 * d * d, -0.03 * d};
+    state.velocity[i] = {d, -1.0, 0.25 * d};
+  }
+  const VtpFile file(written(model, state));
+  const std::uint64_t first = model.particle_count() + 1;
+  EXPECT_EQ(file.attribute("<Piece", "NumberOfPoints"), std::to_string(first + 4));
+  EXPECT_EQ(file.attribute("<Piece", "NumberOfPolys"), "5") << "of the cloth one";
+  const auto faces = file.array<std::int64_t>("Polys", "connectivity", "Int64");
+  const auto ends = file.array<std::int64_t>("Polys", "offsets", "Int64");
+  const auto owners = file.array<std::int32_t>("CellData", "body", "Int32");
+  ASSERT_EQ(ends.size(), 5u);
+  ASSERT_EQ(owners.size(), 1 + all_springs(model).size() + 5);
+  std::size_t triangles = 0;
+  for (std::size_t f = 0; f < ends.size(); ++f) {
+    const auto begin = static_cast<std::size_t>(f == 0 ? 0 : ends[f - 1]);
+    if (static_cast<std::size_t>(ends[f]) - begin != 3) continue;
+    EXPECT_EQ(owners[owners.size() - 5 + f], static_cast<std::int32_t>(body));
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      EXPECT_EQ(faces[begin + corner],
+                static_cast<std::int64_t>(first + tetrahedron.triangles[triangles][corner]));
+    ++triangles;
+  }
+  EXPECT_EQ(triangles, 4u);
+  std::vector<Vec3> places = state.position, velocities = state.velocity;
+  for (const auto& [all, found] :
+       {std::pair(&state.position, &places), std::pair(&state.velocity, &velocities)}) {
+    const auto of_mesh = skin_positions(skin.binding, skin.corners, *all);
+    found->push_back(all == &state.position ? state.ball_position[0] : state.ball_velocity[0]);
+    found->insert(found->end(), of_mesh.begin(), of_mesh.end());
+  }
+  expect_same_numbers(file.array<double>("Points", "position", "Float64"), places, {});
+  expect_same_numbers(file.array<double>("PointData", "velocity", "Float64"), velocities, {});
+  EXPECT_EQ(file.array<double>("PointData", "mass", "Float64").back(), 0.0);
+  for (const char* name : {"speed", "mean-strain"})
+    EXPECT_EQ(file.array<double>("PointData", name, "Float64").size(), first + 4) << name;
+  EXPECT_EQ(file.array<std::uint8_t>("PointData", "contact", "UInt8").size(), first + 4);
 }
 
 TEST(StateVtp, RefusesWhatIsNotFinite) {

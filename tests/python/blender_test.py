@@ -21,6 +21,8 @@ import load_motion  # noqa: E402
 SCENES = {
     "cube": ["cube-plane", "--set", "cube[0].particles-per-edge=4", "--set", "cube[0].position=[0,2.2,0]"],
     "net": ["penalty"],
+    "figure": ["jelly-figure", "--set", "voxels[0].cells=10"],
+    "cells": ["bridge"],
 }
 
 for name, words in SCENES.items():

@@ -24,11 +24,14 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 PROGRAM = os.environ["ASPIC_PROGRAM"]
-# A cube that lands, a net with balls in it, a flag.
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# A cube that lands, a net with balls in it, a flag, a mesh on cells, cells of two materials with balls on them.
 SCENES = {
     "cube": ("cube-plane", ["cube[0].particles-per-edge=4", "cube[0].position=[0,2.2,0]"], 400),
     "net": ("penalty", [], 100),
     "cloth": ("flag", [], 100),
+    "figure": ("jelly-figure", ["voxels[0].cells=10"], 100),
+    "cells": ("bridge", [], 60),
 }
 EVERY = 20
 
@@ -71,6 +74,32 @@ def equal(a: Any, b: Any) -> None:
     assert a.shape == b.shape and np.array_equal(a, b), np.abs(np.asarray(a, float) - np.asarray(b, float)).max()
 
 
+def near(a: Any, b: Any) -> None:
+    """Equal but for the roundings of a sum of eight products and of its result."""
+    assert a.shape == b.shape
+    bound = 0.0 if a.dtype.kind == "u" else 16 * np.finfo(a.dtype).eps * np.abs(b).max(initial=0.0)
+    assert np.abs(a.astype(float) - b).max(initial=0.0) <= bound
+
+
+def of_vertices(model: Any, of_particles: Any) -> Any:
+    """What docs/exports.md says that the vertices of meshes have of their particles."""
+    weights, corners = model["model.mesh-weights"], model["model.mesh-corners"]
+    if of_particles.dtype.kind == "u":
+        return of_particles[corners[np.arange(len(corners)), weights.argmax(axis=1)]]
+    found = of_particles[corners].astype(float)
+    return (weights.reshape(weights.shape + (1,) * (found.ndim - 2)) * found).sum(axis=1)
+
+
+def meshes_of(model: Any) -> tuple[Any, Any]:
+    """Triangles and bodies of meshes' vertices; both are empty where no body has a mesh."""
+    return model.get("model.mesh-triangles", np.empty((0, 3), int)), model.get("model.mesh-body", np.empty(0, int))
+
+
+def drawn_quads(model: Any) -> Any:
+    """Which squares of surfaces are drawn: those of bodies that have no mesh."""
+    return ~np.isin(model["model.skin-body"], meshes_of(model)[1])
+
+
 def read_vtp(path: str) -> Any:
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(path)
@@ -91,7 +120,8 @@ def test_vtk_reads_the_series(name: str, precision: str) -> None:
     entries = list(xml.etree.ElementTree.parse("run.pvd").getroot().iter("DataSet"))
     equal(np.array([float(e.attrib["timestep"]) for e in entries]), run.motion.time)
     model, motion = run.motion.model, run.motion
-    n, springs, quads = len(model["model.masses"]), model["model.springs"], model["model.skin"]
+    n, springs = len(model["model.masses"]), model["model.springs"]
+    triangles, mesh_body = meshes_of(model)
     balls = len(model.get("model.ball-radius", ()))
     for sample, entry in enumerate(entries):
         data = read_vtp(entry.attrib["file"])
@@ -100,21 +130,32 @@ def test_vtk_reads_the_series(name: str, precision: str) -> None:
 
         points, cells = (functools.partial(array_of, part) for part in (data.GetPointData(), data.GetCellData()))
         places = vtk_to_numpy(data.GetPoints().GetData())
-        assert places.dtype == motion["positions"].dtype and len(places) == n + balls
+        assert places.dtype == motion["positions"].dtype and len(places) == n + balls + len(mesh_body)
         equal(places[:n], motion["positions"][sample])
-        equal(places[n:], run.balls("ball-positions")[sample])
-        equal(points("velocity")[n:], run.balls("ball-velocities")[sample])
+        equal(places[n : n + balls], run.balls("ball-positions")[sample])
+        equal(points("velocity")[n : n + balls], run.balls("ball-velocities")[sample])
         equal(points("velocity")[:n], motion["velocities"][sample])
         for of_particles in ("speed", "mean-strain", "force", "contact-force", "contact"):
             equal(points(of_particles)[:n], motion[of_particles][sample])
+            if len(mesh_body):
+                near(points(of_particles)[n + balls :], of_vertices(model, motion[of_particles][sample]))
+        if len(mesh_body):
+            near(places[n + balls :], of_vertices(model, motion["positions"][sample]))
+            near(points("velocity")[n + balls :], of_vertices(model, motion["velocities"][sample]))
         equal(cells("tension")[balls : balls + len(springs)], motion["tension"][sample])
         strain = cells("strain")[balls : balls + len(springs)]
         equal(strain.astype(motion["strain"].dtype), motion["strain"][sample])
         lines, polys = data.GetLines(), data.GetPolys()
         equal(vtk_to_numpy(lines.GetConnectivityArray()).reshape(-1, 2), springs)
-        equal(vtk_to_numpy(polys.GetConnectivityArray()).reshape(-1, 4), quads)
         assert data.GetVerts().GetNumberOfCells() == balls
-        equal(cells("body")[balls + len(springs) :], model["model.skin-body"])
+        corners, ends = (vtk_to_numpy(a) for a in (polys.GetConnectivityArray(), polys.GetOffsetsArray()))
+        owners = cells("body")[balls + len(springs) :]
+        assert (np.diff(owners) >= 0).all() and len(ends) == len(owners) + 1
+        wide = np.diff(ends) == 4
+        equal(corners[np.repeat(wide, np.diff(ends))].reshape(-1, 4), model["model.skin"][drawn_quads(model)])
+        equal(owners[wide], model["model.skin-body"][drawn_quads(model)])
+        equal(corners[np.repeat(~wide, np.diff(ends))].reshape(-1, 3) - n - balls, triangles)
+        equal(owners[~wide], mesh_body[triangles[:, 0]])
 
 
 def test_trimesh_reads_the_object_of_a_cache(run: Run) -> None:
@@ -125,16 +166,22 @@ def test_trimesh_reads_the_object_of_a_cache(run: Run) -> None:
     assert head[:12] == b"POINTCACHE2\0" and np.frombuffer(head[28:], "<i4")[0] == len(run.motion.time)
     places = places.reshape(len(run.motion.time), -1, 3)
     model, positions = run.motion.model, run.motion["positions"]
-    quads = model["model.skin"]
+    quads, (triangles, _) = model["model.skin"][drawn_quads(model)], meshes_of(model)
     scene = trimesh.load("run.obj", process=False, maintain_order=True, group_material=False, split_objects=False)
     if isinstance(scene, trimesh.Trimesh):  # a net's edges make something else of it
         equal(scene.vertices.astype(np.float32), places[0])
         # It makes two triangles of each square; a ball has 96 squares and 32 triangles.
         radii = model.get("model.ball-radius", np.empty(0))
-        assert len(scene.faces) == 2 * len(quads) + 224 * len(radii)
+        assert len(scene.faces) == 2 * len(quads) + len(triangles) + 224 * len(radii)
         flat = positions[0][quads].astype(np.float64)
         squares = np.linalg.norm(np.cross(flat[:, 2] - flat[:, 0], flat[:, 3] - flat[:, 1]), axis=1).sum() / 2
-        if len(radii) == 0:
+        if len(triangles):  # all of it: the shape of the file that it was made from
+            assert scene.is_watertight and scene.is_winding_consistent
+            figure = trimesh.load(ROOT / "assets/meshes/rabbit.obj")
+            assert len(figure.faces) == len(triangles)
+            # Vertices are on steps of a 2,048th of a cell; with so many cells none is far from all of them.
+            assert scene.volume / scene.area**1.5 == pytest.approx(figure.volume / figure.area**1.5, rel=1e-3)
+        elif len(radii) == 0:
             assert scene.area == pytest.approx(squares, rel=1e-5)
         elif len(quads) == 0:
             assert scene.is_watertight and scene.is_winding_consistent
@@ -143,10 +190,13 @@ def test_trimesh_reads_the_object_of_a_cache(run: Run) -> None:
         assert scene.is_watertight and scene.is_winding_consistent
         edge = np.ptp(positions[0], axis=0)
         assert scene.volume == pytest.approx(edge.prod(), rel=1e-5)  # anticlockwise from outside
-    # Every square of every sample, by the file's own faces.
+    # Every square, and every triangle of a mesh, of every sample, by the file's own faces.
     lines = pathlib.Path("run.obj").read_text().splitlines()
     faces = [[int(w) - 1 for w in line.split()[1:]] for line in lines if line.startswith("f ")]
     equal(places[:, np.array(faces[: len(quads)], int).reshape(-1, 4)], positions[:, quads])
+    if len(triangles):
+        for sample, moved in zip(places, positions):
+            near(sample[np.array(faces, int)], of_vertices(model, moved)[triangles])
     edges = [[int(w) - 1 for w in line.split()[1:]] for line in lines if line.startswith("l ")]
     if edges:
         bare = ~np.isin(model["model.body"][model["model.springs"][:, 0]], model["model.skin-body"])
@@ -183,12 +233,13 @@ def test_usd_has_every_number(run: Run, ending: str) -> None:
     for number, name in enumerate(run.sim.bodies):
         place = "/aspic/" + name.replace("-", "_").replace("[", "_").replace("]", "")
         particles = np.flatnonzero(model["model.body"] == number)
-        skin = model["model.skin"][model["model.skin-body"] == number]
+        skin = model["model.skin"][(model["model.skin-body"] == number) & drawn_quads(model)]
+        own = meshes_of(model)[1] == number
         springs = np.flatnonzero(model["model.body"][model["model.springs"][:, 0]] == number)
         points = UsdGeom.Points(stage.GetPrimAtPath(f"{place}/particles"))
         curves = UsdGeom.BasisCurves(stage.GetPrimAtPath(f"{place}/springs"))
         mesh = UsdGeom.Mesh(stage.GetPrimAtPath(f"{place}/skin"))
-        assert bool(mesh) == (len(skin) > 0) and points.GetPointsAttr().GetTimeSamples() == codes.tolist()
+        assert bool(mesh) == (len(skin) > 0 or own.any()) and points.GetPointsAttr().GetTimeSamples() == codes.tolist()
         assert np.array(curves.GetCurveVertexCountsAttr().Get()).tolist() == [2] * len(springs)
         for sample, code in enumerate(codes.tolist()):
             positions = motion["positions"][sample]
@@ -205,7 +256,17 @@ def test_usd_has_every_number(run: Run, ending: str) -> None:
                     equal(np.array(primvar.Get(code)), motion[array][sample][which])
             if mesh:
                 vertices = np.array(mesh.GetPointsAttr().Get(code))
-                equal(vertices[np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, 4)], positions[skin])
+                faces = np.array(mesh.GetFaceVertexIndicesAttr().Get())
+                assert set(mesh.GetFaceVertexCountsAttr().Get()) == {3 if own.any() else 4}
+                if own.any():
+                    equal(faces.reshape(-1, 3), meshes_of(model)[0].astype(faces.dtype))
+                    near(vertices, of_vertices(model, positions))
+                    near(np.array(mesh.GetVelocitiesAttr().Get(code)), of_vertices(model, motion["velocities"][sample]))
+                    for array in ("speed", "mean-strain", "force", "contact-force", "contact"):
+                        primvar = UsdGeom.PrimvarsAPI(mesh).GetPrimvar(array.replace("-", "_"))
+                        near(np.array(primvar.Get(code)), of_vertices(model, motion[array][sample]))
+                else:
+                    equal(vertices[faces.reshape(-1, 4)], positions[skin])
                 extent = np.array(mesh.GetExtentAttr().Get(code))
                 equal(extent, np.stack([vertices.min(axis=0), vertices.max(axis=0)]))
     for ball, radius in enumerate(model.get("model.ball-radius", np.empty(0)).tolist()):

@@ -36,6 +36,7 @@ int main() {
   if (!model) return 3;
   if (aspic::particle_masses(**model).size() != 27 || aspic::particle_ranges(**model).size() != 1) return 4;
   if (aspic::spring_facts(**model).empty() || aspic::surface_quads(**model, 0).size() != 24) return 5;
+  if (!aspic::body_mesh(**model, 0).triangles.empty()) return 30;
   if (!aspic::pinned_indices(**model).empty() || !aspic::ball_facts(**model).empty()) return 6;
   const aspic::State start = aspic::initial_state(**model, aspic::Precision::single);
   const auto same = aspic::compare_states(start, start);
