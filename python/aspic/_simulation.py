@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Union
 
 from . import _aspic
+from ._command import page_command
 from ._errors import OverlapWarning, SceneError, UsageError, diverged
 from ._exports import OF_LIBRARY, ending_of
 from ._inputs import Replayable
@@ -327,13 +328,18 @@ class Simulation(Replayable):
         """Steps, and writes the run as one HTML file that browsers show without a network (docs/page.md).
 
         ``duration``, ``steps``: as ``run()``; ``fps``, ``speed``: as ``film()``; ``live``: the page holds no pictures,
-        but simulates the run in the browser and compares the bits. Ctrl-C and a divergence leave a complete page so
+        but simulates the run in the browser and compares the bits. Where ``aspic run`` of a built-in scene would write
+        it too, the page has that command to copy. Ctrl-C and a divergence leave a complete page so
         far. Raises UsageError, also for a live page of a run in double precision or with inputs; FileError, also where
         a file exists, unless ``overwrite``; DivergedError as ``step()``.
         """
         count = self._steps_of(duration, steps)
         _check_pace(fps, speed)
-        found = self._core.page(os.fspath(path), count, fps, speed, live, overwrite)
+        words = ["--page-live" if live else "--page", os.fspath(path)]
+        for word, value, usual in (("--fps", fps, 60.0), ("--speed", speed, 1.0)):
+            words += [] if value == usual else [word, repr(value)]
+        command = page_command(self, count, words)
+        found = self._core.page(os.fspath(path), count, fps, speed, live, overwrite, command)
         self._warn()
         if found:
             raise diverged(found)

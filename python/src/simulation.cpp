@@ -197,7 +197,8 @@ Result<std::optional<Divergence>> Simulation::page_alone(const PageWish& wish, b
   output.fps = wish.fps;
   output.speed = wish.speed;
   const std::uint64_t last = step_ + wish.steps;
-  const PageFacts page = {&scene_, step_, last, "", backend_.solver->precision(), backend_.arithmetic};
+  const PageFacts page = {
+      &scene_, step_, last, wish.command, backend_.solver->precision(), backend_.arithmetic};
   auto files = take(
       RunFiles::open({}, output, facts_alone(), wish.overwrite ? Overwrite::allow : Overwrite::refuse, page));
   bool begun = false;

@@ -39,6 +39,7 @@ struct PageWish {
   std::optional<double> fps;
   double speed = 1.0;
   bool live = false, overwrite = false;
+  std::string command = {};  ///< that writes it too; empty: none does
 };
 
 /// Steps between two looks at signals and other threads: as many as take about a twentieth of a second.

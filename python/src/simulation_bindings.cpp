@@ -54,8 +54,8 @@ Diverged film(Simulation& simulation, const std::string& path, std::uint64_t ste
 }
 
 Diverged page(Simulation& simulation, const std::string& path, std::uint64_t steps, std::optional<double> fps,
-              double speed, bool live, bool overwrite) {
-  return told(simulation.page({path, steps, fps, speed, live, overwrite}));
+              double speed, bool live, bool overwrite, const std::string& command) {
+  return told(simulation.page({path, steps, fps, speed, live, overwrite, command}));
 }
 
 InputLog parsed(Simulation& simulation, const std::string& text, const std::string& name) {
@@ -109,7 +109,7 @@ void bind_simulation(nb::module_& module) {
       .def("film", &film, nb::arg("path"), nb::arg("steps"), nb::arg("fps").none(), nb::arg("speed"),
            nb::arg("width"), nb::arg("height"), nb::arg("text"), nb::arg("overwrite"), "Steps and films.")
       .def("page", &page, nb::arg("path"), nb::arg("steps"), nb::arg("fps").none(), nb::arg("speed"),
-           nb::arg("live"), nb::arg("overwrite"), "Steps and writes a page for browsers.")
+           nb::arg("live"), nb::arg("overwrite"), nb::arg("command"), "Steps and writes a page for browsers.")
       .def("log", &Simulation::log, "Of all steps.")
       .def("set_log", &Simulation::set_log, nb::arg("log"), "Replaces it.")
       .def("log_text", &Simulation::log_text, "As TOML.")

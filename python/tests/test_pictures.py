@@ -1,10 +1,14 @@
 """Pictures and films."""
 
+import json
 import os
 import pathlib
+import re
+import shlex
 import shutil
 import signal
 import threading
+from collections.abc import Callable
 from typing import Any
 
 import aspic
@@ -157,6 +161,40 @@ def test_a_page_holds_the_run(scene: aspic.Scene) -> None:
     with pytest.raises(aspic.UsageError, match="html"):
         sim.page("c.mp4", steps=1)
     assert not pathlib.Path("c.html").exists() and sim.steps == 41
+
+
+def test_a_page_has_the_command_that_repeats_it(
+    scene: aspic.Scene, program: Callable[..., dict[str, Any]], tmp_path: pathlib.Path
+) -> None:
+    def command_of(sim: aspic.Simulation, **options: Any) -> str:
+        sim.page("p.html", steps=30, overwrite=True, **options)
+        found = re.search(r'"command":("(?:[^"\\]|\\.)*")', text_of("p.html"))
+        assert found
+        return str(json.loads(found[1]))
+
+    changed = scene.copy({"view.colour": "strain", "contact.friction": 0.25, "cube[0].rotation.axis": [0, 1, 0.5]})
+    sim = aspic.Simulation(changed, "cpu")
+    aspic_, *words = shlex.split(command_of(sim, fps=20.0))
+    assert aspic_ == "aspic" and words[-6:] == ["--steps", "30", "--page", "p.html", "--fps", "20.0"]
+    page = text_of("p.html")
+    assert program(*words, "--force")["state_hash"] == sim.hash
+    # Also the page's bytes, but for the command, in which there is --force and --json.
+    facts = re.compile(r'"command":"(?:[^"\\]|\\.)*"')
+    assert facts.sub("", text_of("p.html")) == facts.sub("", page)
+    doubles = aspic.Simulation(scene, "reference", precision="double")
+    words = shlex.split(command_of(doubles))[1:]
+    assert program(*words, "--force")["state_hash"] == doubles.hash
+
+    # A scene of one's own, a second cube, a run that is under way, was moved or is pulled have none.
+    own, two = aspic.Scene(scene.toml.replace('name = "cube-plane"', 'name = "mine"')), aspic.Scene(
+        scene.toml + "[[cube]]\nposition = [9.0, 9.0, 9.0]\n"
+    )
+    assert [command_of(aspic.Simulation(s, "cpu")) for s in (own, two)] == ["", ""]
+    moved, pulled, late = (aspic.Simulation(scene, "cpu") for _ in range(3))
+    moved.positions = moved.positions + np.float32(0.5)
+    pulled.pulls = [aspic.Pull(0, (0.0, 1.0, 0.0), 100.0)]
+    late.step(1)
+    assert [command_of(s) for s in (moved, pulled, late)] == ["", "", ""]
 
 
 def test_a_page_of_a_divergence_is_complete(scene: aspic.Scene) -> None:
