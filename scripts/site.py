@@ -10,7 +10,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 # Smaller bodies where a page would be long, or slow in a browser.
-SMALLER = {"large-cube": ["--set", "cube[0].particles-per-edge=24", "--fps", "30"]}
+SMALLER = {
+    "large-cube": ["--set", "cube[0].particles-per-edge=24", "--fps", "30"],
+    "heap": ["--set", "simulation.timestep=0.002", *(f"--set=cube[{i}].particles-per-edge=3" for i in range(28)), "--fps", "30"],
+}
 
 STYLE = """:root{color-scheme:light dark;--ink:#1d2126;--soft:#5b6068;--paper:#fff;--wash:#f3f4f6;--rule:#d9dce1;--mark:#0b5f9e}
 @media (prefers-color-scheme:dark){:root{--ink:#e6e7e9;--soft:#a3aab4;--paper:#15181c;--wash:#1f2329;--rule:#363c45;--mark:#7cc0f5}}
@@ -152,7 +155,7 @@ def write_scene(program: str, folder: Path, name: str) -> None:
     if (folder / f"images/{name}.jpg").exists():
         return
     with tempfile.TemporaryDirectory() as work:
-        run(program, "run", name, *more[:2], "--duration", "0.7", "--fps", "1", "--size", "960x540", "--frames-format", "jpg",
+        run(program, "run", name, *more[:-2], "--duration", "0.7", "--fps", "1", "--size", "960x540", "--frames-format", "jpg",
             "--frames", f"{work}/frames")
         shutil.copy(sorted(Path(work, "frames").iterdir())[-1], folder / f"images/{name}.jpg")
 
@@ -179,6 +182,8 @@ def main() -> None:
     scenes = json.loads(run(program, "scene", "list", "--json"))["scenes"]
     if unknown := set(names) - {scene["name"] for scene in scenes}:
         sys.exit(f"There is no built-in scene {', '.join(sorted(unknown))}.")
+    if gone := set(SMALLER) - {scene["name"] for scene in scenes}:
+        sys.exit(f"There is no built-in scene {', '.join(sorted(gone))}, which was to be smaller.")
     scenes = [scene for scene in scenes if not names or scene["name"] in names]
     for part in ("play", "live", "docs"):
         (folder / part).mkdir(parents=True, exist_ok=True)

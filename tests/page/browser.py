@@ -26,6 +26,11 @@ def wait_for(browser):
         time.sleep(0.05)
 
 
+def on_the_way(fingers, share):
+    """Where they are then."""
+    return [tuple(a + share * (b - a) for a, b in zip(from_, to)) for from_, to in fingers]
+
+
 def end(process):
     process.terminate()
     try:
@@ -140,6 +145,17 @@ class Chromium:
         steps = [("mousePressed", from_), ("mouseMoved", [(a + b) / 2 for a, b in zip(from_, to)]), ("mouseMoved", to), ("mouseReleased", to)]
         for kind, (x, y) in steps:
             self.ask("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=0 if kind == "mouseReleased" else 1, clickCount=1)
+
+    def touch(self, fingers):
+        """Fingers from … to [((x, y), (x, y)), …], all at once, in three steps."""
+        self.ask("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        for step in range(5):
+            points = [] if step == 4 else [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(on_the_way(fingers, step / 3))]
+            self.ask("Input.dispatchTouchEvent", type="touchStart" if step == 0 else "touchEnd" if step == 4 else "touchMove", touchPoints=points)
+        self.ask("Emulation.setTouchEmulationEnabled", enabled=False)
+
+    def wheel(self, at, down):
+        self.ask("Input.dispatchMouseEvent", type="mouseWheel", x=at[0], y=at[1], deltaX=0, deltaY=down)
 
     def screenshot(self):
         return base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"])
@@ -262,6 +278,17 @@ class Firefox:
         move = lambda x, y: {"type": "pointerMove", "x": round(x), "y": round(y), "duration": 50}
         self.actions([{"type": "pointer", "id": "m", "parameters": {"pointerType": "mouse"},
                        "actions": [move(*from_), {"type": "pointerDown", "button": 0}, move(*to), {"type": "pointerUp", "button": 0}]}])
+
+    def touch(self, fingers):
+        """Fingers from … to [((x, y), (x, y)), …], all at once, in three steps."""
+        move = lambda x, y, duration: {"type": "pointerMove", "x": round(x), "y": round(y), "duration": duration}
+        steps = [on_the_way(fingers, step / 3) for step in range(4)]
+        self.actions([{"type": "pointer", "id": f"finger{i}", "parameters": {"pointerType": "touch"},
+                       "actions": [move(*steps[0][i], 0), {"type": "pointerDown", "button": 0}, *(move(*places[i], 50) for places in steps[1:]),
+                                   {"type": "pointerUp", "button": 0}]} for i in range(len(fingers))])
+
+    def wheel(self, at, down):
+        self.actions([{"type": "wheel", "id": "w", "actions": [{"type": "scroll", "x": round(at[0]), "y": round(at[1]), "deltaX": 0, "deltaY": down, "duration": 0}]}])
 
     def screenshot(self):
         return base64.b64decode(self.ask("WebDriver:TakeScreenshot", {"full": False})["value"])

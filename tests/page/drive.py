@@ -1,4 +1,4 @@
-"""drive.py BROWSER JOBS: opens pages in chromium or firefox, saves pictures of them, and tries keys, mouse and buttons.
+"""drive.py BROWSER JOBS: opens pages in chromium or firefox, saves pictures of them, and tries keys, mouse, fingers and buttons.
 JOBS is JSON: a list of {page, time, picture, touch}: the page's file, the moment [s], the PNG file to write, and whether
 everything that a reader can do is tried. Exit code 1, with a line for each fault, also where that browser is not installed."""
 import base64
@@ -20,8 +20,38 @@ def near(a, b):
     return abs(a - b) < 1e-6
 
 
+def fingers(b, x, y):
+    """Fingers and the wheel about the middle of the picture, by what becomes of the camera."""
+    height = b.call("return document.getElementById('view').clientHeight")
+
+    def camera(act, *what):
+        b.call("aspic.camera.reset()")
+        act(*what)
+        # A browser may hand over what it was told in its next frame.
+        b.call("await new Promise((go) => requestAnimationFrame(() => setTimeout(go, 100)))")
+        return b.call("const { azimuth, elevation, distance, target } = aspic.camera; return [azimuth, elevation, distance, ...target]")
+
+    def require_near(found, wanted, what, slack=1e-6):
+        require(all(abs(a - b) <= slack for a, b in zip(found, wanted)), f"{what}: the camera is {found}, not {wanted}")
+
+    still = camera(lambda: None)
+    turned = [still[0] - 4 * 60 / height, still[1] + 4 * 24 / height, *still[2:]]
+    require_near(camera(b.touch, [((x, y), (x + 60, y + 24))]), turned, "one finger", 4 * 2 / height)
+    for name, from_, to in ("fingers that part", 30, 60), ("fingers that close", 60, 30):
+        found = camera(b.touch, [((x - from_, y), (x - to, y)), ((x + from_, y), (x + to, y))])
+        require_near(found, [*still[:2], still[2] * from_ / to, *still[3:]], name, 0.04 * still[2])
+        require(abs(found[0] - still[0]) < 1e-9 and abs(found[1] - still[1]) < 1e-9, f"{name} turn the camera")
+    moved = camera(b.touch, [((x - 30, y), (x - 30, y + 40)), ((x + 30, y), (x + 30, y + 40))])
+    require(abs(moved[2] / still[2] - 1) < 0.1 and moved[4] > still[4] + 0.02 * still[2] and abs(moved[0] - still[0]) < 1e-9, f"two fingers moved down: {moved}")
+    for down, sign in (240, 1), (-240, -1):
+        found = camera(b.wheel, (x, y), down)
+        require(sign * (found[2] - still[2]) > 0.05 * still[2], f"the wheel by {down} leaves {found[2]} of {still[2]} m")
+        require_near([*found[:2], *found[3:]], [*still[:2], *still[3:]], "the wheel")
+    b.key("r")
+
+
 def touch(b):
-    """Keys, mouse and buttons as a reader uses them."""
+    """Keys, mouse, fingers and buttons as a reader uses them."""
     get = b.call
     times = get("return aspic.recording.times")
     now = lambda: get("return aspic.player.time")
@@ -103,6 +133,8 @@ def touch(b):
     b.key("+")
     require(picture() != before, "+ does not zoom")
     b.key("r")
+    fingers(b, x, y)
+    require(picture() == before, "R does not bring the view back after fingers")
 
     # The rest of the page.
     dark = lambda: get("return getComputedStyle(document.body).backgroundColor")
