@@ -94,7 +94,7 @@ std::uint64_t Actuation::bytes() const {
     return list.capacity() * sizeof(typename std::decay_t<decltype(list)>::value_type);
   };
   std::uint64_t sum = heap(actuators) + heap(drives) + heap(stretches) + heap(shares) + heap(classes);
-  for (const Stretch& stretch : stretches) sum += heap(stretch.drives);
+  for (const CellStretch& stretch : stretches) sum += heap(stretch.drives);
   return sum;
 }
 
@@ -169,7 +169,7 @@ std::vector<LengthRange> rest_length_ranges(const Model& model) {
   const Actuation& all = model.actuation;
   // Every way each cell may stretch, least and most.
   std::vector<std::array<std::array<double, 3>, 2>> ends;
-  for (const Stretch& stretch : all.stretches) {
+  for (const CellStretch& stretch : all.stretches) {
     auto& [least, most] = ends.emplace_back();
     for (const std::uint32_t d : stretch.drives) {
       const Actuator& actuator = all.actuators[all.drives[d].actuator];

@@ -33,10 +33,10 @@ struct Drive {
 };
 
 /// What acts on some cells alike: their stretch along each axis is 1 + Σ a·w of these drives.
-struct Stretch {
+struct CellStretch {
   std::vector<std::uint32_t> drives;  ///< ascending
 
-  friend bool operator==(const Stretch&, const Stretch&) = default;
+  friend bool operator==(const CellStretch&, const CellStretch&) = default;
 };
 
 /// Of a spring's stiffness, the share that is that of cells which stretch alike.
@@ -57,7 +57,7 @@ struct ActuatedClass {
 struct Actuation {
   std::vector<Actuator> actuators;  ///< in file order
   std::vector<Drive> drives;        ///< ascending by actuator
-  std::vector<Stretch> stretches;
+  std::vector<CellStretch> stretches;
   std::vector<StretchShare> shares;
   std::vector<ActuatedClass> classes;  ///< ascending by class
   std::uint32_t channels = 0;          ///< that it reads: actuators with Signal::input, in file order
