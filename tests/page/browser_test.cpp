@@ -83,6 +83,8 @@ std::vector<Shot> all_shots() {
       {"cubes-stack", "1"},
       {"heap", "1.3"},
       {"squeeze", "1.9"},
+      {"jelly-in-net", "1"},
+      {"knot", "5"},
       {"course-2021-plane", "1.25"},
       {"course-2021-tilted-plane", "1.05"},
       {"course-2021-sphere", "0.9"},

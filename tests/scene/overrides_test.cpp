@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string box = " = { min = [-9, -9, -9], max = [9, 9, 9] }\n";
+const std::string launcher_box = " = { min = [-9, -9, -9], max = [9, 9, 9] }\n";
 /// One element of every list.
 const std::string base = [] {
   std::string text = "schema = 1\n";
@@ -25,7 +25,7 @@ const std::string base = [] {
     text += fmt::format("[[{}]]\n", list.key);
     if (list.key == "material") text += "name = \"fat\"\n";
     if (list.key == "cube") text += "shear = { stiffness = 1000.0 }\n";
-    if (list.key == "launcher") text += fmt::format("from{0}towards{0}", box);
+    if (list.key == "launcher") text += fmt::format("from{0}towards{0}", launcher_box);
   }
   return text;
 }();
