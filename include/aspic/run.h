@@ -143,7 +143,8 @@ class ASPIC_API RunFiles {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Tells of bodies that are within each other: once for each pair.
+/// Tells of bodies that are within each other: once for each pair. Calls may come from any thread, one at a
+/// time.
 class ASPIC_API OverlapWatch {
  public:
   /// Of a run of this model, which is that of the settings; needs neither later. `starts`: in its initial

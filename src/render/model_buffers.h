@@ -98,7 +98,6 @@ class ModelBuffers {
   const gl::Buffer& skin() const { return skin_; }
   /// 0: there is no skin.
   std::uint32_t skin_vertices() const { return skin_vertices_; }
-  const gl::Buffer& quantity() const { return quantity_; }
 
  private:
   ModelBuffers() = default;

@@ -234,12 +234,13 @@ TEST(Bodies, PinTheSidesAndCornersTheyName) {
   }
 }
 
-TEST(SettingsLists, AreTerrainMaterialsAndTheBodies) {
+TEST(SettingsLists, AreTerrainMaterialsActuatorsAndTheBodies) {
   std::set<std::string_view> keys;
   for (const SettingsList& list : settings_lists()) keys.insert(list.key);
-  EXPECT_EQ(keys.size(), body_rows().size() + 2);
+  EXPECT_EQ(keys.size(), body_rows().size() + 3);
   EXPECT_TRUE(keys.contains("terrain"));
   EXPECT_TRUE(keys.contains("material"));
+  EXPECT_TRUE(keys.contains("actuator"));
   for (const BodyRow& row : body_rows()) EXPECT_TRUE(keys.contains(row.list.key)) << row.list.key;
 }
 

@@ -119,10 +119,9 @@ TEST(TouchSurface, PairsHaveTheirConstants) {
 TEST(TouchSurface, IsWantedWhereSomethingCanTouch) {
   ModelSettings settings;
   settings.cubes.resize(1);
-  settings.goal_nets.resize(1);
   settings.contact.bodies = true;
-  EXPECT_FALSE(bodies_touch(test::build(settings))) << "nets have no surface";
-  settings.cloths.resize(1);
+  EXPECT_FALSE(bodies_touch(test::build(settings))) << "there is nothing else";
+  settings.goal_nets.resize(1);
   EXPECT_TRUE(bodies_touch(test::build(settings)));
   settings.contact.bodies = false;
   EXPECT_FALSE(bodies_touch(test::build(settings)));
