@@ -67,8 +67,8 @@ void add_overrides(CLI::App* c, std::vector<std::string>& overrides) {
 void add_arithmetic(CLI::App* c, RawOptions& raw) {
   add(c, "--arithmetic", "NAME", raw.arithmetic,
       "exact: the reference's bits, or fast: other last bits (gpu and cpu)");
-  add(c, "--threads", "N", raw.threads, "threads of the cpu backend, 1 to 1024; default: as many as are worthwhile",
-      few);
+  add(c, "--threads", "N", raw.threads,
+      "threads of the cpu backend, 1 to 1024; default: as many as are worthwhile", few);
 }
 
 void add_backend(CLI::App* c, RawOptions& raw) {

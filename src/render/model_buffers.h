@@ -96,8 +96,7 @@ class ModelBuffers {
   const gl::Buffer& light_boxes() const { return light_boxes_; }
   /// SkinVertex each, in the order of Surface::fan_vertex, then of Surface::mesh_corners.
   const gl::Buffer& skin() const { return skin_; }
-  /// 0: there is no skin.
-  std::uint32_t skin_vertices() const { return skin_vertices_; }
+  const gl::Buffer& quantity() const { return quantity_; }
 
  private:
   ModelBuffers() = default;

@@ -119,7 +119,7 @@ void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptio
     buffers->compute_light_boxes(programs, state);
     mark(PicturePass::bounds);
   }
-  if (view.draw.solid && buffers->skin_vertices() > 0) buffers->compute_skin(programs, *state.particles);
+  if (view.draw.solid) buffers->compute_skin(programs, *state.particles);
   mark(PicturePass::skin);
   if (held) {
     lights.bind(*buffers);
@@ -352,8 +352,9 @@ std::vector<Vec3> Renderer::normals() const {
   const gl::Current here(*parts_->context);
   if (!here.status()) return {};
   std::vector<Vec3> result;
-  for (const render_layout::SkinVertex& v :
-       parts_->buffers->skin().download_items<render_layout::SkinVertex>(parts_->buffers->skin_vertices()))
+  const gl::Buffer& skin = parts_->buffers->skin();
+  const auto count = static_cast<std::size_t>(skin.bytes()) / sizeof(render_layout::SkinVertex);
+  for (const render_layout::SkinVertex& v : skin.download_items<render_layout::SkinVertex>(count))
     result.push_back(
         {static_cast<double>(v.normal.x), static_cast<double>(v.normal.y), static_cast<double>(v.normal.z)});
   return result;

@@ -99,20 +99,20 @@ TEST(ActuatorScene, ArgumentsReachItByName) {
 TEST(ActuatorScene, RejectionsPointToTheKey) {
   const auto rejection = [](const std::string& keys) { return test::rejection(actuator + keys); };
   EXPECT_THAT(test::rejection(body + "[[actuator]]\nbody = [\"worm\", \"snake\"]\n"),
-              StartsWith("scene.toml:11:17: 'actuator.body': there is no body \"snake\""));
+              StartsWith("scene.toml:13:17: 'actuator.body': there is no body \"snake\""));
   EXPECT_THAT(rejection("select.material = \"bone\"\n"),
-              StartsWith("scene.toml:13:19: 'actuator.select.material'"));
+              StartsWith("scene.toml:15:19: 'actuator.select.material'"));
   EXPECT_THAT(rejection("amplitude = 0.2\nvolume-change = 0.1\n"),
-              HasSubstr("scene.toml:14:1: an actuator has either"));
+              HasSubstr("scene.toml:16:1: an actuator has either"));
   EXPECT_THAT(rejection("signal = \"sine\"\ntable = [[0, 0], [1, 1]]\n"),
-              HasSubstr("scene.toml:14:1: 'actuator.table' is"));
+              HasSubstr("scene.toml:16:1: 'actuator.table' is"));
   EXPECT_THAT(rejection("table = [[0, 0], [2, 1], [1, 0]]\n"),
-              StartsWith("scene.toml:13:26: 'actuator.table': times must"));
+              StartsWith("scene.toml:15:26: 'actuator.table': times must"));
   EXPECT_THAT(rejection("phase = \"none.npy\"\n"), HasSubstr("'actuator.phase'"));
   EXPECT_THAT(rejection("select.box.min = [5, 5, 5]\nselect.box.max = [6, 6, 6]\n"),
               HasSubstr("chooses no cell of worm"));
   EXPECT_THAT(rejection("phase.cells = \"1 1 1: 0\"\n"),
-              HasSubstr("scene.toml:13:15: 'actuator.phase.cells': it has 1 × 1 × 1"));
+              HasSubstr("scene.toml:15:15: 'actuator.phase.cells': it has 1 × 1 × 1"));
   EXPECT_THAT(test::rejection(actuator + "[[actuator]]\nname = \"legs\"\n"), HasSubstr("is taken"));
 }
 

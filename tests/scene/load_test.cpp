@@ -238,9 +238,9 @@ TEST(Builtin, ScenesLoadAndBuild) {
       names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus",
                                   "cube-hole", "elevator", "cubes-stack", "heap", "squeeze", "jelly-in-net",
                                   "knot", "goal-net", "penalty", "flag", "curtain", "bridge", "swing",
-                                  "jelly-figure", "worm", "walker", "ball-pit", "cube-and-balls", "large-cube",
-                                  "course-2021-plane", "course-2021-tilted-plane", "course-2021-sphere",
-                                  "course-2021-bowl", "course-2018"));
+                                  "jelly-figure", "worm", "walker", "ball-pit", "cube-and-balls",
+                                  "large-cube", "course-2021-plane", "course-2021-tilted-plane",
+                                  "course-2021-sphere", "course-2021-bowl", "course-2018"));
 }
 
 TEST(Builtin, ScenesOfAGroupFollowOneAnother) {
