@@ -23,8 +23,8 @@ class Buildable:
     Further keys are named with ``_`` for ``-``: ``scene.add("cube", edge_length=1.0)``.
     """
 
-    def keys(self) -> list[str]:
-        """Every key that has a meaning."""
+    def _count(self, kind: str) -> int:
+        """Elements of a list of the scene."""
         raise NotImplementedError
 
     def update(self, values: Mapping[str, Any]) -> None:
@@ -43,8 +43,7 @@ class Buildable:
         self.update({f"{kind}[+]": given})
         if given.get("name"):
             return f"{kind}[{given['name']}]"
-        elements = {key[: key.index("]")] for key in self.keys() if key.startswith(f"{kind}[")}
-        return f"{kind}[{len(elements) - 1}]"
+        return f"{kind}[{self._count(kind) - 1}]"
 
     def add_material(
         self,

@@ -99,18 +99,52 @@ class Scene(Buildable):
     files.
     """
 
+    _read: _aspic.Scene  # of a draft there is none
+    _empty: SceneError
+
     def __init__(self, text: str = "schema = 1\n", name: str = "scene", overrides: Mapping[str, Any] | None = None):
         """Reads TOML text.
 
         ``name``: for messages, and for titles where the text gives none; ``overrides``: keys and values set afterwards.
-        Raises SceneError with every mistake, its line and the nearest word.
+        Raises SceneError with every mistake, its line and the nearest word. A scene in which nothing moves yet may be
+        built by ``add()`` and ``update()``; whatever else is asked of it raises SceneError until something does.
         """
-        self._core, self._notes = _aspic.Scene.parse(text, name, assignments(overrides))
+        self._notes: list[str] = []
+        self._draft: tuple[str, str, list[str]] | None = (text, name, [])
+        self._extend(assignments(overrides))
+
+    def _extend(self, words: list[str]) -> None:
+        """Takes arguments of --set; of a scene that is empty, keeps them until it is not."""
+        if self._draft is None:
+            self._read, notes = self._read.with_overrides(words)
+        else:
+            text, name, before = self._draft
+            try:
+                self._read, notes = _aspic.Scene.parse(text, name, before + words)
+            except SceneError as error:
+                if any("the scene is empty" not in line for line in str(error).splitlines() if line[:1] != " "):
+                    raise
+                self._draft, self._empty = (text, name, before + words), error
+                return
+            self._draft = None
+        self._notes += notes
+
+    def _count(self, kind: str) -> int:
+        if self._draft is not None:
+            text, _, words = self._draft
+            return text.count(f"[[{kind}]]") + sum(word.startswith(f"{kind}[+]=") for word in words)
+        return len({key[: key.index("]")] for key in self.keys() if key.startswith(f"{kind}[")})
+
+    @property
+    def _core(self) -> _aspic.Scene:
+        if self._draft is not None:
+            raise SceneError(str(self._empty))
+        return self._read
 
     @classmethod
     def _of(cls, core: _aspic.Scene, notes: Iterable[str] = ()) -> Scene:
         scene = cls.__new__(cls)
-        scene._core, scene._notes = core, list(notes)
+        scene._read, scene._notes, scene._draft = core, list(notes), None
         return scene
 
     @property
@@ -154,13 +188,15 @@ class Scene(Buildable):
 
     def update(self, values: Mapping[str, Any]) -> None:
         """Sets several keys at once: all, or none if it raises SceneError. Keys may depend on each other."""
-        self._core, notes = self._core.with_overrides(assignments(values))
-        self._notes += notes
+        self._extend(assignments(values))
 
     def copy(self, values: Mapping[str, Any] | None = None) -> Scene:
         """Another scene with the same values, but for those given. Raises SceneError."""
-        core, notes = self._core.with_overrides(assignments(values)) if values else (self._core, [])
-        return Scene._of(core, [*self._notes, *notes])
+        other = Scene.__new__(Scene)
+        other.__dict__.update(self.__dict__, _notes=list(self._notes))
+        if values:
+            other.update(values)
+        return other
 
     def __copy__(self) -> Scene:
         return self.copy()
@@ -187,11 +223,15 @@ class Scene(Buildable):
     _ipython_key_completions_ = keys
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Scene) and self.toml == other.toml
+        if not isinstance(other, Scene) or self._draft is not None or other._draft is not None:
+            return isinstance(other, Scene) and self._draft == other._draft
+        return self.toml == other.toml
 
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
+        if self._draft is not None:
+            return f"<aspic.Scene {self._draft[1]!r}: empty>"
         return f"<aspic.Scene {self.name!r}: {', '.join(self.bodies) or 'no bodies'}>"
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:

@@ -27,7 +27,7 @@ def test_hashes_are_those_of_the_program(scene: aspic.Scene, backend: str, progr
     assert sim.steps == 300 and sim.time == pytest.approx(0.3)
 
 
-def test_bodies_within_each_other_are_named_once() -> None:
+def test_bodies_within_each_other_at_the_start_are_named() -> None:
     scene = aspic.load("cubes-stack")
     scene.update({f"cube[{i}].particles-per-edge": 4 for i in range(3)})
     with warnings.catch_warnings():
@@ -36,14 +36,6 @@ def test_bodies_within_each_other_are_named_once() -> None:
     scene.update({"cube[1].position": [0, 5.9, 0]})
     with pytest.warns(aspic.OverlapWarning, match=r"cube\[0\] and cube\[1\] by 0\.\d+ m"):
         aspic.Simulation(scene, "cpu")
-    # Light springs and no damping: 120 m/s is far above the speed of sound.
-    for kind in ("structural", "shear", "bending"):
-        scene.update({f"cube[{i}].{kind}.damping": 1.0 for i in range(3)})
-    scene.update({"cube[1].position": [0, 8, 0], "cube[1].velocity": [0, -120, 0], "cube[2].position": [20, 3, 0]})
-    sim = aspic.Simulation(scene, "cpu")
-    with pytest.warns(aspic.OverlapWarning, match="so deep within each other at step 100 ") as told:
-        sim.run(0.3)
-    assert len(told) == 1
 
 
 def test_all_backends_give_the_same_bits(scene: aspic.Scene) -> None:
