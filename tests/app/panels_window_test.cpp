@@ -463,6 +463,7 @@ TEST_F(Panels, NewBodiesStandBesideOthersAndAboveTheGroundAndAreSaved) {
       const Model before = simulation().model();
       const State there = initial_state(before, Precision::double_);
       click(std::string(row.list.key) + "/add");
+      frames(2);  // a new section may move the buttons
       const Model& model = simulation().model();
       const State all = initial_state(model, Precision::double_);
       // What came is what was not there: everything else is where it was.

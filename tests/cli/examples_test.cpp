@@ -335,7 +335,8 @@ TEST(Examples, ScenesOfDocumentsAreAccepted) {
   int scenes = 0;
   for (const fs::path& page : documents())
     for (const Block& block : blocks_of_page(page)) {
-      if (block.language != "toml") continue;
+      // Inputs are files of their own.
+      if (block.language != "toml" || block.text.find("[[inputs]]") != std::string::npos) continue;
       ++scenes;
       const bool complete = block.text.find("schema = ") != std::string::npos;
       const auto done = reader.check("block.toml", (complete ? "" : "schema = 1\n") + block.text);
