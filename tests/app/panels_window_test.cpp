@@ -463,7 +463,8 @@ TEST_F(Panels, NewBodiesStandBesideOthersAndAboveTheGroundAndAreSaved) {
       const Model before = simulation().model();
       const State there = initial_state(before, Precision::double_);
       click(std::string(row.list.key) + "/add");
-      frames(2);  // a new section may move the buttons
+      const auto size = [](const Model& m) { return m.particle_count() + m.balls.size(); };
+      frames_until([&] { return size(simulation().model()) > size(before); });
       const Model& model = simulation().model();
       const State all = initial_state(model, Precision::double_);
       // What came is what was not there: everything else is where it was.
