@@ -62,6 +62,7 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
   app::KeptState unfolded = kept;
   for (const char* const fold : {"View: more", "Energy: momentum", "Springs: by type"})
     unfolded.layout.sections.emplace(fold, true);
+  close();  // one application at a time in a window
   auto made = app::App::create(window_->context(),
                                {.scene = scene,
                                 .overrides = std::move(overrides),
