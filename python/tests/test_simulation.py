@@ -38,6 +38,17 @@ def test_bodies_within_each_other_at_the_start_are_named() -> None:
         aspic.Simulation(scene, "cpu")
 
 
+def test_bodies_deep_within_each_other_are_named_once() -> None:
+    scene = aspic.load("cubes-stack")
+    scene.update({f"cube[{i}].particles-per-edge": 6 for i in range(3)})
+    # More than a spacing a step: the lower face is in the middle of the other cube at the first look.
+    scene.update({"cube[1].position": [0.5, 63, 0.5], "cube[1].velocity": [0, -600, 0], "cube[2].position": [30, 3, 0]})
+    sim = aspic.Simulation(scene, "cpu")
+    with pytest.warns(aspic.OverlapWarning, match="so deep within each other at step 100 ") as told:
+        sim.run(0.3)
+    assert len(told) == 1
+
+
 def test_all_backends_give_the_same_bits(scene: aspic.Scene) -> None:
     sims = [simulation(scene, backend) for backend in ("reference", "cpu", "gpu")]
     assert sims[0].compare(sims[1], 150) is None

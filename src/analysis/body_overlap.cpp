@@ -75,19 +75,22 @@ class Skin {
     Vector low, high;
   };
 
+  /// Whether the ray from P along x meets the triangle. Of what lies on a side, seen along x, the side's two
+  /// triangles have one each: sides are cut from their lower end, so that both find the same bits.
   static bool crosses(const Corners& face, const Vector& P) {
-    // Twice the areas that P makes with the sides, seen along x; all of one sign: the ray meets the triangle.
-    std::array<double, 3> area;
+    std::array<Vector, 2> cuts;  // of the sides with the plane y = P.y
+    std::size_t count = 0;
     for (std::size_t n = 0; n < 3; ++n) {
-      const Vector a = face[(n + 1) % 3] - P, b = face[(n + 2) % 3] - P;
-      area[n] = a.y() * b.z() - a.z() * b.y();
+      const Vector &a = face[n], &b = face[(n + 1) % 3];
+      if ((a.y() > P.y()) == (b.y() > P.y())) continue;
+      const Vector &low = a.y() < b.y() ? a : b, &high = a.y() < b.y() ? b : a;
+      cuts[count++] = low + (P.y() - low.y()) / (high.y() - low.y()) * (high - low);
     }
-    const bool positive = area[0] > 0.0 && area[1] > 0.0 && area[2] > 0.0,
-               negative = area[0] < 0.0 && area[1] < 0.0 && area[2] < 0.0;
-    if (!positive && !negative) return false;
-    const double x = (area[0] * face[0].x() + area[1] * face[1].x() + area[2] * face[2].x()) /
-                     (area[0] + area[1] + area[2]);
-    return x > P.x();
+    if (count == 0) return false;
+    if (cuts[0].z() > cuts[1].z()) std::swap(cuts[0], cuts[1]);
+    if (P.z() < cuts[0].z() || P.z() >= cuts[1].z()) return false;
+    const double share = (P.z() - cuts[0].z()) / (cuts[1].z() - cuts[0].z());
+    return cuts[0].x() + share * (cuts[1].x() - cuts[0].x()) > P.x();
   }
 
   std::vector<Corners> faces_;
@@ -151,12 +154,9 @@ void DeepPoints::take(const State& state, const Boxes& boxes, std::uint32_t a, s
   }
   if (candidates.empty()) return;
   const Skin skin(std::span(surfaces_.triangles).subspan(faces.first_triangle, faces.triangle_count), state);
-  // Within D of such a point there is no surface: aside, the ray meets no edges of a lattice that lies along
-  // it.
-  const Vector aside = D * Vector(0.0, 0.2173, 0.1339);
   std::vector<Vector> deep;
   for (const Vector& P : candidates)
-    if (skin.distance(P, D) >= D && skin.holds(P + aside)) deep.push_back(P);
+    if (skin.distance(P, D) >= D && skin.holds(P)) deep.push_back(P);
   if (deep.empty()) return;
   BodyOverlap& overlap = pair_of(found, points.body, faces.body);
   overlap.most = D;

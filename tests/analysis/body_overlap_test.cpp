@@ -65,6 +65,16 @@ TEST(BodyOverlap, WhatIsDeeperThanASpacingIsLocked) {
   EXPECT_LT(found[0].deepest, 2.0);
 }
 
+// Rays from the points of aligned bodies of one spacing run through corners and sides of triangles.
+TEST(BodyOverlap, AlignedBodiesOfOneSpacingAreNoneTheLess) {
+  const auto found =
+      overlaps({cube_at({}, 4.0), cube_at({0.0, 0.5, 0.0}, 1.0), cube_at({0.5, 4.5, 0.0}, 1.0)});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].b, 1u);
+  EXPECT_TRUE(found[0].locked());
+  EXPECT_NEAR(found[0].deepest, 2.0, 1e-12) << "the middle of its lower face";
+}
+
 // Points in the box of a body that is not there: above the lower cell of an L, and beside a turned cube.
 TEST(BodyOverlap, KnowsInsideFromTheBoxAround) {
   ModelSettings settings;

@@ -63,5 +63,20 @@ TEST(SceneContact, RunsNameWhatOverlapsAtTheStart) {
   EXPECT_THAT(start.out, HasSubstr("J of contact)"));
 }
 
+TEST(SceneContact, RunsNameOnceWhatIsDeepWithinEachOther) {
+  // More than a spacing a step: the lower face is in the middle of the other cube at the watch's first look.
+  std::vector<std::string> words = {"run", "cubes-stack", "--steps", "250", "--backend", "cpu"};
+  for (const char* const setting :
+       {"cube[0].particles-per-edge=6", "cube[1].particles-per-edge=6", "cube[2].particles-per-edge=6",
+        "cube[1].position=[0.5,63,0.5]", "cube[1].velocity=[0,-600,0]", "cube[2].position=[30,3,0]"})
+    words.insert(words.end(), {"--set", setting});
+  const auto deep = aspic(words);
+  EXPECT_THAT(deep.err, HasSubstr("so deep within each other at step 100 (t = 0.1 s)"));
+  const std::size_t first = deep.err.find("so deep");
+  EXPECT_EQ(deep.err.find("cube[0] and cube[1]", deep.err.find("cube[0] and cube[1]", first) + 1),
+            std::string::npos)
+      << "once: " << deep.err;
+}
+
 }  // namespace
 }  // namespace aspic
