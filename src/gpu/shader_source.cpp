@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 
 #include "base/files.h"
@@ -70,6 +71,38 @@ std::string shape_choice() {
 
 }  // namespace
 
+/// Whether `name` stands in `text` as a word.
+bool mentions(std::string_view text, std::string_view name) {
+  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !in_word(text[at - 1])) && (end == text.size() || !in_word(text[end]))) return true;
+  }
+  return false;
+}
+
+/// The defines that `text`, or one of these, mentions, in their order. Drivers keep programs by their text:
+/// a define that nothing reads would have them compile the same program again.
+std::vector<Define> used_of(std::span<const Define> defines, std::string_view text) {
+  std::vector<bool> used(defines.size(), false);
+  for (bool found = true; found;) {
+    found = false;
+    for (std::size_t i = 0; i < defines.size(); ++i) {
+      const auto reads = [&](std::size_t other) {
+        return used[other] && mentions(defines[other].value, defines[i].name);
+      };
+      bool read = mentions(text, defines[i].name);
+      for (std::size_t other = 0; other < defines.size() && !read; ++other) read = reads(other);
+      found = found || (read && !used[i]);
+      used[i] = used[i] || read;
+    }
+  }
+  std::vector<Define> kept;
+  for (std::size_t i = 0; i < defines.size(); ++i)
+    if (used[i]) kept.push_back(defines[i]);
+  return kept;
+}
+
 /// A flattening under way: the shader so far, and the files that lead to the present one.
 struct ShaderLibrary::Flattening {
   struct Open {
@@ -108,12 +141,16 @@ Result<std::string> ShaderLibrary::read(std::string_view path) const {
 }
 
 Result<FlatShader> ShaderLibrary::flatten(std::string_view path, std::span<const Define> defines) const {
+  Flattening body;
+  ASPIC_CHECK(append(body, std::string(path)));
   Flattening work;
   work.put(-1, 1, "#version 430 core");
   int line = 2;
-  for (const Define& d : defines) work.put(-1, line++, fmt::format("#define {} {}", d.name, d.value));
-  ASPIC_CHECK(append(work, std::string(path)));
-  return std::move(work.shader);
+  for (const Define& d : used_of(defines, body.shader.text_))
+    work.put(-1, line++, fmt::format("#define {} {}", d.name, d.value));
+  body.shader.text_.insert(0, work.shader.text_);
+  body.shader.lines_.insert(body.shader.lines_.begin(), work.shader.lines_.begin(), work.shader.lines_.end());
+  return std::move(body.shader);
 }
 
 Status ShaderLibrary::append(Flattening& work, const std::string& path) const {

@@ -68,10 +68,9 @@ class ShaderLibrary {
   /// shapes. Error (io): there is none, or it cannot be read.
   Result<std::string> read(std::string_view path) const;
 
-  /// `#version 430 core`, the defines, and the file with every `#include "path"` put in its place, each file
-  /// once. Paths are relative to shaders/. Errors (io): missing file, unreadable include line, a cycle of
-  /// includes, a
-  /// `#version` in a file; the sentence names file and line.
+  /// `#version 430 core`, those of the defines that are read, and the file with every `#include "path"` put
+  /// in its place, each file once. Paths are relative to shaders/. Errors (io): missing file, unreadable
+  /// include line, a cycle of includes, a `#version` in a file; the sentence names file and line.
   Result<FlatShader> flatten(std::string_view path, std::span<const Define> defines = {}) const;
 
  private:

@@ -52,16 +52,22 @@ TEST(EmbeddedShaders, AreTheFilesByteForByte) {
   }
 }
 
-TEST(ShaderLibrary, PutsVersionAndDefinesInFront) {
-  const FlatShader flat = flatten("include/inner.glsl", {{"FIRST", "1"}, {"SECOND", "x + y"}});
-  EXPECT_EQ(
-      flat.text(),
-      "#version 430 core\n#define FIRST 1\n#define SECOND x + y\n// line 1 of inner\n// line 2 of inner\n");
+TEST(ShaderLibrary, PutsVersionAndTheDefinesThatAreReadInFront) {
+  // The comment of the file says "line"; LINES and one are words of their own.
+  const FlatShader flat = flatten("include/inner.glsl", {{"one", "2"},
+                                                         {"line", "three + four"},
+                                                         {"LINES", "1"},
+                                                         {"four", "4"},
+                                                         {"three4", "x"},
+                                                         {"inne", "y"}});
+  EXPECT_EQ(flat.text(),
+            "#version 430 core\n#define line three + four\n#define four 4\n// line 1 of inner\n"
+            "// line 2 of inner\n");
   EXPECT_EQ(flat.path(), "include/inner.glsl");
 }
 
 TEST(ShaderLibrary, IncludesEachFileOnceAndKnowsEveryLinesOrigin) {
-  const FlatShader flat = flatten("include/outer.comp", {{"A", "1"}});
+  const FlatShader flat = flatten("include/outer.comp", {{"outer", "1"}});
   EXPECT_EQ(flat.text().find("include"), std::string::npos);
   const struct {
     const char* file;
