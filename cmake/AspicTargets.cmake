@@ -164,9 +164,10 @@ endfunction()
 # aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each suite of it a test of ctest's (cmake/AspicSuites.cmake):
 # a process for each case would make a context and compile the shaders each time. EACH_CASE: a process for each case all the
 # same, for cases that take long or want a process of their own. Patterns are those of --gtest_filter: SOFTWARE pattern gives the
-# label software to tests that mean software rasterisers alone, FULL part=pattern moves tests to that part of the full tier.
+# label software to tests that mean software rasterisers alone, FULL part=pattern … moves tests to
+# those parts of the full tier.
 function(aspic_test name)
-  cmake_parse_arguments(arg "EACH_CASE" "SOFTWARE;FULL" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "EACH_CASE" "SOFTWARE" "SOURCES;DEPENDS;FULL" ${ARGN})
   aspic_test_program(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS})
   if("threads" IN_LIST ASPIC_TEST_PROPERTIES)
     set_property(GLOBAL APPEND PROPERTY ASPIC_THREADED_TESTS ${name})
@@ -185,8 +186,9 @@ function(aspic_test name)
     list(APPEND labels "software=${arg_SOFTWARE}")
   endif()
   if(arg_FULL)
-    string(REGEX REPLACE "^[^=]+" "full" all "${arg_FULL}")
-    list(APPEND labels "${all}" "${arg_FULL}")
+    list(TRANSFORM arg_FULL REPLACE "^[^=]+=" "" OUTPUT_VARIABLE all)
+    list(JOIN all ":" all)
+    list(APPEND labels "full=${all}" ${arg_FULL})
   endif()
   set(base "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites")
   list(JOIN properties " " properties)

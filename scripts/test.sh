@@ -16,21 +16,22 @@ core      each room's own tests; the gpu solvers on llvmpipe with a covering set
 full      core, and by label:
   pages        pages of every built-in scene in Chromium and Firefox; pages that simulate, with every scene and method, and the site;
                those that simulate are skipped where scripts/wasm.sh has made no module
-  products     equal bits in products of methods, terrains and paths, and for more particles
+  products     equal bits in products of methods, terrains, scenes and paths, and for more particles
   drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads, on zink and for
                Khronos' reference compiler
   crowds       hundreds of balls in one place
-  framing      how much of the picture bodies fill, in every built-in scene
-  verify       aspic verify --quick
+  framing      how much of the picture bodies fill, in every built-in scene, and what still backgrounds are kept of
+  verify       aspic verify --quick, and wrong solvers that its slow rows notice
   window       the rest of the window's tests
   report       the report's page in a browser, and on paper
   examples     the commands of the documents, shortened
   independent  the independent implementation of the physics
   packages     the Python package from source distribution to wheel to a fresh environment; its sweeps on Dask and submitit;
                its notebooks; the cube that learns to crawl, to the end
+  install      an installed library, used by a project outside of the tree; the programs of docs/library.md
   exports      files for other programs, read by VTK, USD, trimesh, zarr and xarray from PyPI (600 MB),
                and by Blender's library (1 GB)
-  attack       damaged files, limits, faults and kills (scripts/attack.sh)
+  attack       damaged files and bytes, limits, faults and kills (scripts/attack.sh)
           and without a label:
   sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers
   fuzzers      ten seconds each (scripts/fuzz.sh)

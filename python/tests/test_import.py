@@ -2,6 +2,9 @@
 
 import subprocess
 import sys
+from pathlib import Path
+
+import pytest
 
 import aspic
 
@@ -32,10 +35,12 @@ def test_importing_loads_no_other_package_no_graphics_and_starts_no_thread() -> 
     assert report(REPORT) == {"modules": "aspic" + RUN_TIME, "graphics": "", "threads": "1"}
 
 
-def test_importing_takes_under_a_tenth_of_a_second() -> None:
+def test_importing_takes_under_a_tenth_of_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
+    monkeypatch.setenv("PYTHONPYCACHEPREFIX", str(tmp_path))  # the first import compiles the module's files
     program = "import time; before = time.process_time(); import aspic; print('took', time.process_time() - before)"
     # Other work on the machine makes it longer, never shorter.
-    assert any(float(report(program)["took"]) < 0.1 for _ in range(5))
+    assert any(float(report(program)["took"]) < 0.1 for _ in range(20))
 
 
 def test_stepping_on_the_cpu_loads_no_graphics() -> None:

@@ -79,6 +79,10 @@ void expect_golden(const test::GoldenRun& run) {
   test::expect_golden(run, *solver->state());
 }
 
+TEST(CpuSolver, HasTheReferencesBitsInEveryBuiltInScene) {
+  for (const test::GoldenRun& run : test::scene_runs_in_turn()) expect_golden(run);
+}
+
 TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInEveryBuiltInScene) {
   for (const test::GoldenRun& run : test::scene_runs()) {
     if (run.method == GetParam()) expect_golden(run);
@@ -167,7 +171,7 @@ TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsWithAnyNumberOfThreads) {
     const Model model = test::build(test::low_cube(9, GetParam(), contact));
     for (const unsigned threads : {1u, 2u, 5u}) {
       SCOPED_TRACE(fmt::format("{}, {} threads", name_of(contact), threads));
-      expect_equal(model, steps(40, 400), threads);
+      expect_equal(model, steps(20, 150), threads);
     }
   }
 }

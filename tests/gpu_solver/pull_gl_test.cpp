@@ -51,9 +51,14 @@ class PullOnTheDevice : public aspic::testing::GlTest {
     settings.contact.model = contact;
     return settings;
   }
+
+  static void expect_the_references_bits(bool every_path);
+  static void expect_the_references_bits_of_balls(bool both_spins);
 };
 
-TEST_F(PullOnTheDevice, EveryIntegratorContactModelAndForcePath) {
+/// Every path, or one after the other in turn.
+void PullOnTheDevice::expect_the_references_bits(bool every_path) {
+  std::size_t turn = 0;
   for (const Integrator integrator : all_integrators) {
     const std::uint64_t s = integrator == Integrator::implicit_euler ? 10 : 50;
     const std::vector<Input> inputs = {
@@ -73,9 +78,11 @@ TEST_F(PullOnTheDevice, EveryIntegratorContactModelAndForcePath) {
       for (std::size_t i = 0; i < expected.position.size(); ++i)
         moved = std::max(moved, length(expected.position[i] - untouched->state()->position[i]));
       ASSERT_GT(moved, 0.1);
-      for (const ForcePath path :
-           {ForcePath::lattice, ForcePath::tiles, ForcePath::gather, ForcePath::per_spring}) {
-        if (!works_with(path, integrator)) continue;  // refused by name
+      std::vector<ForcePath> paths = {ForcePath::lattice, ForcePath::tiles, ForcePath::gather,
+                                      ForcePath::per_spring};
+      std::erase_if(paths, [&](ForcePath path) { return !works_with(path, integrator); });  // refused by name
+      if (!every_path) paths = {paths[turn++ % paths.size()]};
+      for (const ForcePath path : paths) {
         auto solver = solver_for(model, path);
         const State state = run(*solver, inputs, 8 * s);
         EXPECT_EQ(state_hash_text(state), state_hash_text(expected))
@@ -86,10 +93,21 @@ TEST_F(PullOnTheDevice, EveryIntegratorContactModelAndForcePath) {
   }
 }
 
-TEST_F(PullOnTheDevice, BallsFeelItToo) {
+TEST_F(PullOnTheDevice, EveryIntegratorAndContactModel) {
+  expect_the_references_bits(false);
+}
+
+TEST_F(PullOnTheDevice, EveryIntegratorContactModelAndForcePath) {
+  expect_the_references_bits(true);
+}
+
+/// With and without spin, or in turn.
+void PullOnTheDevice::expect_the_references_bits_of_balls(bool both_spins) {
+  std::size_t turn = 0;
   for (const Integrator integrator : all_integrators) {
     for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
       for (const bool spin : {true, false}) {
+        if (!both_spins && spin != (turn++ % 4 < 2)) continue;
         ModelSettings settings = low_cube(integrator, contact);
         settings.contact.spin = spin;
         settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
@@ -113,6 +131,14 @@ TEST_F(PullOnTheDevice, BallsFeelItToo) {
       }
     }
   }
+}
+
+TEST_F(PullOnTheDevice, BallsFeelItToo) {
+  expect_the_references_bits_of_balls(false);
+}
+
+TEST_F(PullOnTheDevice, BallsFeelItWithAndWithoutSpin) {
+  expect_the_references_bits_of_balls(true);
 }
 
 // How the steps between two inputs are queued changes nothing, nor does a load in between.

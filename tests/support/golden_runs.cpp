@@ -96,6 +96,16 @@ std::vector<GoldenRun> scene_runs() {
   return runs;
 }
 
+std::vector<GoldenRun> scene_runs_in_turn() {
+  std::vector<GoldenRun> runs;
+  for (const BuiltinScene& scene : list_builtin_scenes()) {
+    const std::size_t turn = runs.size();
+    runs.push_back(golden_run(std::string(scene.name), contact_models[turn / 2 % 2].value,
+                              all_integrators[turn % all_integrators.size()]));
+  }
+  return runs;
+}
+
 std::vector<GoldenRun> case_runs() {
   std::map<Key, GoldenRun> once;
   const auto add = [&](GoldenRun run) { once.insert({Key(run.scene, name_of(run.method)), std::move(run)}); };

@@ -33,6 +33,8 @@ GoldenRun golden_run(const std::string& builtin_scene, ContactModel contact, Int
 
 /// Every built-in scene with every contact model.
 std::vector<GoldenRun> scene_runs();
+/// Of these, one of every built-in scene: methods and contact models take turns.
+std::vector<GoldenRun> scene_runs_in_turn();
 /// Those of the covering set and of the kernel variants, each once.
 std::vector<GoldenRun> case_runs();
 

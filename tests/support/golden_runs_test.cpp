@@ -35,6 +35,10 @@ TEST_P(GoldenScenes, ReferenceHasThem) {
   }
 }
 
+TEST(GoldenRuns, ReferenceHasOneOfEveryScene) {
+  for (const GoldenRun& run : scene_runs_in_turn()) expect_golden(run, reference_state(run));
+}
+
 TEST(GoldenRuns, AreAllThatTheFileHas) {
   EXPECT_EQ(golden_count(), scene_runs().size() + case_runs().size());
 }
