@@ -121,7 +121,8 @@ State Instance::state() {
 
 Measures Instance::measures() {
   return batch_.alone([&](Contents& contents) {
-    return measure(*take(contents.batch.model(number_)), take(contents.batch.state(number_)));
+    return measure(*take(contents.batch.model(number_)), take(contents.batch.state(number_)),
+                   contents.inputs[number_]);
   });
 }
 

@@ -154,7 +154,7 @@ void Recording::write(const Unit& unit, std::size_t slot, std::size_t instance, 
     put(record_.centre_of_mass, centre.x, centre.y, centre.z);
   }
   if (quantities_.momentum || quantities_.energies) {
-    const Measures figures = measure(*model, state);
+    const Measures figures = measure(*model, state, unit.inputs(slot));
     if (quantities_.momentum)
       put(record_.momentum, figures.momentum.x, figures.momentum.y, figures.momentum.z);
     if (quantities_.energies) put(record_.energy, figures.kinetic, figures.elastic, figures.gravitational);

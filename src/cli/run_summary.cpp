@@ -33,7 +33,7 @@ Json to_json(const Divergence& d, double timestep) {
 Json to_json(const RunReport& run) {
   const auto& [scene, model, backend, outcome, inputs] = run;
   const State& state = outcome.state;
-  const Measures m = measure(model, state);
+  const Measures m = measure(model, state, inputs.at(state.step));
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   const std::string hash = state_hash_text(state);
   // Not within the list: g++ 12 destroys what it has not made yet when memory runs out in a list with `?:`.
@@ -79,7 +79,7 @@ Json to_json(const RunReport& run) {
 std::string to_text(const RunReport& run) {
   const auto& [scene, model, backend, outcome, inputs] = run;
   const State& state = outcome.state;
-  const Measures m = measure(model, state);
+  const Measures m = measure(model, state, inputs.at(state.step));
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   std::string text = fmt::format("scene        {} ({} particles, {} springs{})\n", scene.name,
                                  model.particle_count(), spring_count(model),

@@ -149,7 +149,7 @@ void add_state(Columns& columns, const Sample& sample) {
     columns.add("ball-velocities", {b, 3}, as_type<T>(state.ball_velocity));
     columns.add("ball-angular-velocities", {b, 3}, as_type<T>(state.ball_angular_velocity));
   }
-  const StateQuantities q = quantities_of(sample.model, state, sample.inputs ? *sample.inputs : Inputs());
+  const StateQuantities q = quantities_of(sample.model, state, inputs_of(sample));
   columns.add("speed", {n}, as_type<T>(q.speed));
   columns.add("mean-strain", {n}, as_type<T>(q.mean_strain));
   columns.add("force", {n, 3}, as_type<T>(q.force));
@@ -165,7 +165,7 @@ void add_sample(Columns& columns, const Sample& sample) {
   columns.add("time", {}, std::vector{static_cast<double>(state.step) * sample.model.simulation.timestep});
   state.precision == Precision::single ? add_state<float>(columns, sample)
                                        : add_state<double>(columns, sample);
-  const Measures m = measure(sample.model, state);
+  const Measures m = measure(sample.model, state, inputs_of(sample));
   columns.add("energy.kinetic", {}, std::vector{m.kinetic});
   columns.add("energy.elastic", {}, std::vector{m.elastic});
   columns.add("energy.gravitational", {}, std::vector{m.gravitational});

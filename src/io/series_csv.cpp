@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "io/state_sink.h"
+
 namespace aspic {
 
 Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite overwrite, bool solves) {
@@ -20,10 +22,11 @@ Status SeriesWriter::finish() {
   return file_.commit();
 }
 
-Status SeriesWriter::add(const Model& model, const State& state, const SolveStatistics& solves) {
-  if (has_row_ && last_step_ == state.step) return {};
-  const double time = static_cast<double>(state.step) * model.simulation.timestep;
-  return add(state.step, time, measure(model, state), solves);
+Status SeriesWriter::add(const Sample& sample) {
+  const std::uint64_t step = sample.state.step;
+  if (has_row_ && last_step_ == step) return {};
+  const double time = static_cast<double>(step) * sample.model.simulation.timestep;
+  return add(step, time, measure(sample.model, sample.state, inputs_of(sample)), sample.solves);
 }
 
 Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, const SolveStatistics& solves) {

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "aspic/analysis.h"
+#include "aspic/files.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
 #include "model/implicit.h"
@@ -30,10 +31,10 @@ class SeriesWriter {
   /// `solves`, and that of contact if the row has it.
   static Result<SeriesWriter> create(const std::string& path, Overwrite overwrite, bool solves = false);
 
-  /// Appends the row of a state unless the last row was of the same step; time is step · h [s]. `solves` are
-  /// the run's statistics so far, read only where the file has their columns. Errors: io from the file;
+  /// Appends the row of a state unless the last row was of the same step; time is step · h [s]. Its
+  /// statistics of solves are read only where the file has their columns. Errors: io from the file;
   /// diverged if a figure is not finite.
-  Status add(const Model& model, const State& state, const SolveStatistics& solves = {});
+  Status add(const Sample& sample);
   /// The same with the measurements of a step, at `time` [s].
   Status add(std::uint64_t step, double time, const Measures& measures, const SolveStatistics& solves = {});
 

@@ -97,7 +97,7 @@ class Series final : public StateSink {
   Series(const std::string& path, std::uint64_t every, SeriesWriter writer)
       : StateSink(path, every), writer_(std::move(writer)) {}
 
-  Status take(const Sample& s) override { return writer_.add(s.model, s.state, s.solves); }
+  Status take(const Sample& s) override { return writer_.add(s); }
   Status finish(const Sample& last) override {
     const Status added = take(last);
     return added ? writer_.finish() : added;

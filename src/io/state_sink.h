@@ -9,9 +9,16 @@
 #include <vector>
 
 #include "aspic/files.h"
+#include "aspic/inputs.h"
 #include "io/atomic_file.h"
 
 namespace aspic {
+
+/// Those that hold for the sample's state.
+inline const Inputs& inputs_of(const Sample& sample) {
+  static const Inputs none;
+  return sample.inputs != nullptr ? *sample.inputs : none;
+}
 
 /// Takes states of a run in the order of their steps. One that is destroyed before finish() leaves nothing
 /// that looks complete, except the files of earlier steps.

@@ -124,7 +124,7 @@ Status PageWriter::begin(const PageSettings& settings, std::span<const PageRun> 
   return pack(deflater_.add(bytes), false);
 }
 
-Status PageWriter::add(std::span<const State* const> states) {
+Status PageWriter::add(std::span<const State* const> states, const Inputs& inputs) {
   bool went_on = false;
   for (std::size_t i = 0; i < states.size(); ++i)
     went_on = went_on || tracks_[i].steps.empty() || tracks_[i].steps.back() != states[i]->step;
@@ -135,7 +135,7 @@ Status PageWriter::add(std::span<const State* const> states) {
     const State& state = *states[i];
     positions_ += state.position.size() + state.ball_position.size();
     Tracks& tracks = tracks_[i];
-    const Measures m = measure(*models_[i], state);
+    const Measures m = measure(*models_[i], state, inputs);
     if (const auto bad = first_not_finite(m))
       return fail(ErrorCode::diverged, "{}: {} of step {} is not a finite number.", printable_line(path()),
                   *bad, state.step);
@@ -220,7 +220,7 @@ class PageSink final : public StateSink {
     }
     while (frame_ < schedule_.count() && schedule_.step_of(frame_) <= sample.state.step) ++frame_;
     const State* const state = &sample.state;
-    return writer_.add({&state, 1});
+    return writer_.add({&state, 1}, inputs_of(sample));
   }
   Status finish(const Sample& last) override {
     ASPIC_CHECK(take(last));

@@ -1,7 +1,14 @@
 #include "io/series_csv.h"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "aspic/model.h"
+#include "support/actuated.h"
+#include "support/model_building.h"
 #include "support/temporary_directory.h"
 
 namespace aspic {
@@ -23,16 +30,32 @@ TEST(SeriesCsv, IsTheSpecifiedTableAndRepeatsNoStep) {
   State state;
   state.position = {{0.0, 3.0, 0.0}};
   state.velocity = {{1.0, 0.0, 0.0}};
-  ASSERT_TRUE(series->add(one_particle(), state).ok());
-  ASSERT_TRUE(series->add(one_particle(), state).ok());
+  ASSERT_TRUE(series->add({one_particle(), state}).ok());
+  ASSERT_TRUE(series->add({one_particle(), state}).ok());
   state.step = 3;
   state.position[0].y = -1.0;
-  ASSERT_TRUE(series->add(one_particle(), state).ok());
+  ASSERT_TRUE(series->add({one_particle(), state}).ok());
   ASSERT_TRUE(series->finish().ok());
   EXPECT_EQ(dir.read("e.csv"),
             "step,time,kinetic,elastic,gravitational,total,px,py,pz,max_speed,min_height\n"
             "0,0,1,0,60,61,2,0,0,1,3\n"
             "3,1.5,1,0,-20,-19,2,0,0,1,-1\n");
+}
+
+// A signal that inputs give stretches springs: the elastic energy is with their rest lengths.
+TEST(SeriesCsv, EnergiesAreThoseOfTheInputs) {
+  const test::TemporaryDirectory dir;
+  const Model model = test::build(test::actuated(Integrator::symplectic_euler, ContactModel::coulomb));
+  const State state = initial_state(model, Precision::double_);
+  Inputs inputs;
+  inputs.channels = {0.8};
+  auto series = SeriesWriter::create(dir.file("e.csv"), Overwrite::refuse);
+  ASSERT_TRUE(series.ok());
+  ASSERT_TRUE(series->add({.model = model, .state = state, .inputs = &inputs}).ok());
+  ASSERT_TRUE(series->finish().ok());
+  const double with = measure(model, state, inputs).elastic, without = measure(model, state).elastic;
+  EXPECT_GT(std::abs(with - without), 0.01 * with);
+  EXPECT_THAT(dir.read("e.csv"), testing::HasSubstr(fmt::format(",{},", with)));
 }
 
 TEST(SeriesCsv, NotANumberIsNeverWritten) {
@@ -42,7 +65,7 @@ TEST(SeriesCsv, NotANumberIsNeverWritten) {
   State state;
   state.position = {{0.0, 3.0, 0.0}};
   state.velocity = {{std::numeric_limits<double>::infinity(), 0.0, 0.0}};
-  const Status added = series->add(one_particle(), state);
+  const Status added = series->add({one_particle(), state});
   ASSERT_FALSE(added.ok());
   EXPECT_EQ(added.error().code, ErrorCode::diverged);
 }
@@ -56,14 +79,14 @@ TEST(SeriesCsv, SolveColumnsHoldWhatCameSinceTheRowBefore) {
   auto series = SeriesWriter::create(dir.file("e.csv"), Overwrite::refuse, true);
   ASSERT_TRUE(series.ok());
   SolveStatistics solves;
-  ASSERT_TRUE(series->add(model, state, solves).ok());
+  ASSERT_TRUE(series->add({model, state, solves}).ok());
   solves.add({3, 40, 0.5, SolveEnd::converged});
   solves.add({5, 60, 0.25, SolveEnd::stagnated});
   state.step = 2;
-  ASSERT_TRUE(series->add(model, state, solves).ok());
+  ASSERT_TRUE(series->add({model, state, solves}).ok());
   solves.add({1, 7, 0.125, SolveEnd::not_converged});
   state.step = 3;
-  ASSERT_TRUE(series->add(model, state, solves).ok());
+  ASSERT_TRUE(series->add({model, state, solves}).ok());
   ASSERT_TRUE(series->finish().ok());
   EXPECT_EQ(dir.read("e.csv"), std::string(series_csv_header) + std::string(series_csv_solve_header) +
                                    "\n0,0,1,0,60,61,2,0,0,1,3,0,0,0,0,0,0\n"
