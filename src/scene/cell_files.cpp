@@ -2,16 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
 
-#include "base/files.h"
-#include "base/npy.h"
-#include "base/printable.h"
 #include "model/voxels.h"
-#include "scene/reader.h"
+#include "scene/cell_arrays.h"
 
 namespace aspic::reader {
 namespace {
@@ -19,9 +15,6 @@ namespace {
 /// What stands for the numbers of an array: digits for themselves, letters for larger ones.
 constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 constexpr std::size_t most_materials = letters.size();
-/// Numpy's array of as many corners as a body may have, of 8 bytes an element.
-constexpr std::uint64_t largest_file = 8 * most_lattice_points + 65536;
-
 /// Cells and their palette with a character for each number.
 struct FileCells {
   CellLayers layers;
@@ -29,9 +22,8 @@ struct FileCells {
 };
 
 Result<FileCells> cells_of(const NpyArray& array, const CellPalette& by_number) {
-  if (array.shape().size() != 3 || !array.whole_numbers())
-    return fail(ErrorCode::scene_rejected,
-                "it must be an array of whole numbers or truth values with three axes, x, y and z");
+  if (!array.whole_numbers())
+    return fail(ErrorCode::scene_rejected, "it must be an array of whole numbers or truth values");
   const std::size_t nx = array.shape()[0], ny = array.shape()[1], nz = array.shape()[2];
   FileCells cells;
   std::map<std::int64_t, char> known = {{0, '.'}};
@@ -45,9 +37,6 @@ Result<FileCells> cells_of(const NpyArray& array, const CellPalette& by_number) 
     cells.palette[std::string(1, c)] = entry->second;
     return known[number] = c;
   };
-  if (std::max({nx, ny, nz}) > static_cast<std::size_t>(most_cells_along))
-    return fail(ErrorCode::scene_rejected, "it has {} × {} × {} cells; allowed: {} along each axis", nx, ny,
-                nz, most_cells_along);
   cells.layers.assign(ny, std::vector<std::string>(nz, std::string(nx, '.')));
   for (std::size_t i = 0; i < array.size(); ++i) {
     const std::size_t x = i / (ny * nz), y = i / nz % ny, z = i % nz;
@@ -66,14 +55,6 @@ Result<FileCells> cells_of(const NpyArray& array, const CellPalette& by_number) 
   return cells;
 }
 
-Result<FileCells> read_cells(const std::string& path, const CellPalette& by_number) {
-  ASPIC_TRY(auto start, read_regular_file(path, largest_file));
-  if (start.size > largest_file)
-    return fail(ErrorCode::scene_rejected, "it has {} bytes; allowed: {}", start.size, largest_file);
-  ASPIC_TRY(const auto array, NpyArray::read(std::move(start.content)));
-  return cells_of(array, by_number);
-}
-
 }  // namespace
 
 bool is_cell_source(std::string_view path) {
@@ -84,26 +65,15 @@ bool is_cell_source(std::string_view path) {
 
 void read_cell_files(Reader& reader, const std::vector<diagnostics::Source>& sources) {
   for (std::size_t i = 0; i < reader.scene().model.voxels.size(); ++i) {
-    const std::string path = path_text("voxels[].file", i);
-    const auto written = reader.written().find(path);
-    const auto name = reader.cell_sources().find(path);
-    if (written == reader.written().end() || written->second.problem || name == reader.cell_sources().end())
-      continue;
-    const bool in_file = written->second.key.source == 0;
-    const std::filesystem::path folder =
-        in_file ? std::filesystem::path(sources.front().label).parent_path() : std::filesystem::path();
     VoxelsSettings& voxels = reader.scene().model.voxels[i];
-    const auto& file = std::get<std::string>(name->second);
-    auto cells = read_cells((folder / file).string(), voxels.palette);
-    if (!cells) {
-      const std::string& what = cells.error().what;
-      reader.blame(path, cells.error().code == ErrorCode::io
-                             ? fmt::format("'voxels.file': {}", what)
-                             : fmt::format("'voxels.file' \"{}\": {}", excerpt(file, 60), what));
-      continue;
-    }
-    voxels.layers = std::move(cells->layers);
-    if (!voxels.palette.empty()) voxels.palette = std::move(cells->palette);
+    take_named_file(reader, sources, path_text("voxels[].file", i), "voxels.file",
+                    [&](const std::string& file) -> Status {
+                      ASPIC_TRY(const auto array, read_cell_array(file));
+                      ASPIC_TRY(FileCells cells, cells_of(array, voxels.palette));
+                      voxels.layers = std::move(cells.layers);
+                      if (!voxels.palette.empty()) voxels.palette = std::move(cells.palette);
+                      return {};
+                    });
   }
 }
 
