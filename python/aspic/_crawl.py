@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -11,10 +10,10 @@ import gymnasium  # type: ignore[import-not-found, unused-ignore]
 import numpy as np
 from gymnasium.vector import AutoresetMode  # type: ignore[import-not-found, unused-ignore]
 
-from ._batch import Instance
-from ._environments import BatchEnv, Path, SingleEnv
+from ._environments import Path, SingleEnv
 from ._errors import UsageError
 from ._inputs import Pull
+from ._locomotion import Locomotion, scenes_of, seen
 from ._scene import Scene, load
 from ._simulation import Simulation
 
@@ -52,7 +51,7 @@ def crawler(overrides: dict[str, Any] | None = None) -> Scene:
 _FAR = 1000.0
 
 
-class Crawl(BatchEnv):
+class Crawl(Locomotion):
     """A soft body crawls along +x by tendons, which draw two of its particles together.
 
     Action, (m,) of 0 … 1: the tension of each tendon as a part of ``force``, constant for ``every`` s. Both ends feel
@@ -90,10 +89,7 @@ class Crawl(BatchEnv):
         """
         if not (force > 0 and cycle > 0 and push >= 0):
             raise UsageError(f"force and cycle are > 0, push is ≥ 0, not {force}, {cycle}, {push}")
-        made = crawler() if scenes is None else scenes
-        if not isinstance(made, (Scene, str, os.PathLike)):
-            made = list(made)
-        first = made[0] if isinstance(made, list) else made
+        made, first = scenes_of(crawler() if scenes is None else scenes)
         self.ends = _edges(first) if tendons is None else np.array(tendons, np.int64)
         if self.ends.ndim != 2 or self.ends.shape[1] != 2 or not 1 <= len(self.ends) <= 128:
             raise UsageError(f"tendons are 1 to 128 pairs of particles, (m, 2), not {self.ends.shape}")
@@ -107,20 +103,12 @@ class Crawl(BatchEnv):
             **options,
         )
         self.force, self.cycle, self.push = force, cycle, push
-        x = self.batch.positions.astype(np.float64)
+        x = self._keep_start()
         if self.ends.min() < 0 or self.ends.max() >= x.shape[1]:
             raise UsageError(f"a tendon's ends are indices of particles, 0 to {x.shape[1] - 1}")
-        self._masses = np.array([instance.masses for instance in self.batch])[:, :, None]
         self._rest = self._spans(x)[1]
         if not (self._rest > 0).all():
             raise UsageError("the ends of a tendon are at different places")
-        self._start = self._centre(x)
-        self._place = self._start[:, 0].copy()
-
-    def begin(self, index: int, instance: Instance, random: np.random.Generator) -> None:
-        """All particles get the same velocity, each component within ±``push``."""
-        instance.velocities = instance.velocities + random.uniform(-self.push, self.push, 3)
-        self._place[index] = self._start[index, 0]
 
     def act(self, actions: Any) -> None:
         """Tensions the tendons."""
@@ -141,33 +129,14 @@ class Crawl(BatchEnv):
         across, length = self._spans(x)
         difference = v[:, self.ends[:, 1]] - v[:, self.ends[:, 0]]
         rates = _dot(across, difference) / np.maximum(length, 1e-9)
-        time = self._made * self.every / self.cycle
-        clock = [4 * np.abs((time + shift) % 1.0 - 0.5) - 1 for shift in (0.0, 0.25)]
-        higher = (self._centre(x) - self._start)[:, 1:2]
-        seen = (np.stack(clock, axis=1), length / self._rest - 1, rates / self._rest, self._centre(v), higher)
-        observations: Floats = np.clip(np.concatenate(seen, axis=1), -10, 10).astype(np.float32)
-        return observations
-
-    def judge(self) -> tuple[ArrayLike, ArrayLike]:
-        """How far each went along x since the last step [m]; no episode ends by it."""
-        place = self._centre(self.batch.positions.astype(np.float64))[:, 0]
-        moved = place - self._place
-        self._place = place
-        return moved, np.zeros(self.num_envs, np.bool_)
-
-    def figures(self) -> dict[str, NDArray[Any]]:
-        """The distance since the beginning of the episode [m]."""
-        return {"distance": self._place - self._start[:, 0]}
+        return seen(
+            self._clock(), length / self._rest - 1, rates / self._rest, self._centre(v), self._higher(x)
+        )
 
     def _spans(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """From one end of each tendon to the other, (n, m, 3), and how long that is, (n, m)."""
         across = x[:, self.ends[:, 1]] - x[:, self.ends[:, 0]]
         return across, np.sqrt(_dot(across, across))
-
-    def _centre(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Mean by mass, (n, 3), added in the order of the particles, so that it has the same bits everywhere."""
-        sums = np.cumsum(self._masses * vectors, axis=1)[:, -1]
-        return sums / np.cumsum(self._masses, axis=1)[:, -1]  # type: ignore[no-any-return]
 
 
 def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 import gymnasium  # type: ignore[import-not-found, unused-ignore]
 import numpy as np
 from gymnasium.vector import AutoresetMode  # type: ignore[import-not-found, unused-ignore]
 
 from ._batch import Instance
-from ._environments import BatchEnv, SingleEnv
+from ._environments import Path, SingleEnv
 from ._errors import UsageError
+from ._locomotion import Locomotion, scenes_of, seen
 from ._scene import Scene, load
 
-Path = Union[str, "os.PathLike[str]"]
-
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     Floats = NDArray[np.float32]
 
@@ -36,7 +34,7 @@ def walker(overrides: dict[str, Any] | None = None) -> Scene:
     return scene.copy({**inputs, **(overrides or {})})
 
 
-class Walk(BatchEnv):
+class Walk(Locomotion):
     """A soft robot walks along +x by muscles: actuators with ``signal = "input"``.
 
     Action, (m,) of −1 … 1: the signal w of each actuator, in the order of the scene. Signals follow actions at
@@ -69,10 +67,7 @@ class Walk(BatchEnv):
         """
         if not (rate > 0 and cycle > 0 and push >= 0):
             raise UsageError(f"rate and cycle are > 0, push is ≥ 0, not {rate}, {cycle}, {push}")
-        made = walker() if scenes is None else scenes
-        if not isinstance(made, (Scene, str, os.PathLike)):
-            made = list(made)
-        first = made[0] if isinstance(made, list) else made
+        made, first = scenes_of(walker() if scenes is None else scenes)
         m = len(_inputs_of(first if isinstance(first, Scene) else load(first)))
         if m == 0:
             raise UsageError("the scene has no actuator with signal = \"input\"")
@@ -87,19 +82,15 @@ class Walk(BatchEnv):
         self.rate, self.cycle, self.push = rate, cycle, push
         if any(len(instance.inputs) != m for instance in self.batch):
             raise UsageError(f"environments have as many inputs each: the first has {m}")
-        x = self.batch.positions.astype(np.float64)
-        self._masses = np.array([instance.masses for instance in self.batch])[:, :, None]
+        x = self._keep_start()
         self._signals = np.zeros((self.num_envs, m))
         self._ends = _ends(x[0])
         self._lowest = x[0, :, 1] < x[0, :, 1].min() + 1e-6
         self._axes = self._axes_of(x)
-        self._start = self._centre(x)
-        self._place = self._start[:, 0].copy()
 
     def begin(self, index: int, instance: Instance, random: np.random.Generator) -> None:
         """All particles get the same velocity, each component within ±``push``; signals are 0."""
-        instance.velocities = instance.velocities + random.uniform(-self.push, self.push, 3)
-        self._place[index] = self._start[index, 0]
+        super().begin(index, instance, random)
         self._signals[index] = 0.0
 
     def act(self, actions: Any) -> None:
@@ -112,36 +103,15 @@ class Walk(BatchEnv):
     def observe(self) -> Floats:
         """Clock, signals, velocity, height, axes and contact, (n, m + 13)."""
         x, v = self.batch.positions.astype(np.float64), self.batch.velocities.astype(np.float64)
-        time = self._made * self.every / self.cycle
-        clock = [4 * np.abs((time + shift) % 1.0 - 0.5) - 1 for shift in (0.0, 0.25)]
-        higher = (self._centre(x) - self._start)[:, 1:2]
         length = np.sqrt((self._axes**2).sum(axis=2))[:, :, None]
         axes = (self._axes_of(x) / length).reshape(len(x), 6)
         near = (x[:, self._lowest, 1] < x[:, :, 1].min(axis=1)[:, None] + 0.01).mean(axis=1)[:, None]
-        seen = (np.stack(clock, axis=1), self._signals, self._centre(v), higher, axes, near)
-        observations: Floats = np.clip(np.concatenate(seen, axis=1), -10, 10).astype(np.float32)
-        return observations
-
-    def judge(self) -> tuple[ArrayLike, ArrayLike]:
-        """How far each went along x since the last step [m]; no episode ends by it."""
-        place = self._centre(self.batch.positions.astype(np.float64))[:, 0]
-        moved = place - self._place
-        self._place = place
-        return moved, np.zeros(self.num_envs, np.bool_)
-
-    def figures(self) -> dict[str, NDArray[Any]]:
-        """The distance since the beginning of the episode [m]."""
-        return {"distance": self._place - self._start[:, 0]}
+        return seen(self._clock(), self._signals, self._centre(v), self._higher(x), axes, near)
 
     def _axes_of(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """From rear to front and from below to above, by particles at the ends, (n, 2, 3)."""
         front, rear, top, low = self._ends
         return np.stack([x[:, front] - x[:, rear], x[:, top] - x[:, low]], axis=1)
-
-    def _centre(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Mean by mass, (n, 3), added in the order of the particles, so that it has the same bits everywhere."""
-        sums = np.cumsum(self._masses * vectors, axis=1)[:, -1]
-        return sums / np.cumsum(self._masses, axis=1)[:, -1]  # type: ignore[no-any-return]
 
 
 def _inputs_of(scene: Scene) -> list[str]:
