@@ -79,8 +79,9 @@ ASPIC_EXPORT(advance) int advance(double steps) {
 ASPIC_EXPORT(take) int take() {
   if (const Status taken = run->take(); !taken) return done(taken);
   const Measures& m = run->measures();
-  said = fmt::format(R"({{"step":{},"hash":"{}","kinetic":{},"elastic":{},"gravitational":{}}})", run->step(),
-                     run->hash(), m.kinetic, m.elastic, m.gravitational);
+  said = fmt::format(
+      R"({{"step":{},"hash":"{}","kinetic":{},"elastic":{},"gravitational":{},"changes":[{}]}})", run->step(),
+      run->hash(), m.kinetic, m.elastic, m.gravitational, fmt::join(run->changes(), ","));
   return 0;
 }
 ASPIC_EXPORT(numbers) float* numbers() {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cpu_reference/reference_solver.h"
+#include "model/actuation.h"
 #include "model/model.h"
 #include "scene/key_lines.h"
 
@@ -51,6 +52,12 @@ Status LiveRun::take() {
   ASPIC_TRY(step_, solver_->read_into(places()));
   hash_ = state_hash_text(state);
   measures_ = measure(model(), state);
+  changes_.clear();
+  RestLengths lengths(model());
+  for (const double r : lengths.at(step_, 0.0, {})) {
+    const ActuatedClass& of = model().actuation.classes[changes_.size()];
+    changes_.push_back(static_cast<float>(r / model().spring_classes[of.spring_class].rest_length - 1.0));
+  }
   return {};
 }
 

@@ -37,6 +37,8 @@ class LiveRun {
   std::uint64_t step() const { return step_; }
   const std::string& hash() const { return hash_; }
   const Measures& measures() const { return measures_; }
+  /// r/r₀ − 1 by Actuation::classes, at that step.
+  const std::vector<float>& changes() const { return changes_; }
 
   /// Room for a state: the fields of state_fields one after the other, three numbers a vector.
   std::span<float> numbers() { return numbers_; }
@@ -55,6 +57,7 @@ class LiveRun {
   std::uint64_t step_ = 0;
   std::string hash_;
   Measures measures_;
+  std::vector<float> changes_;
 };
 
 }  // namespace aspic::live

@@ -53,6 +53,23 @@ TEST(LiveRun, HasTheBitsOfTheReference) {
   }
 }
 
+TEST(LiveRun, KnowsHowFarRestLengthsAreChanged) {
+  LiveRun run = run_of(scene_of({}, "worm"));
+  ASSERT_TRUE(run.advance(200).ok() && run.take().ok());
+  const auto& classes = run.model().actuation.classes;
+  const std::vector<double> lengths = rest_lengths(run.model(), 200, 0.0, {});
+  ASSERT_EQ(run.changes().size(), classes.size());
+  for (std::size_t n = 0; n < classes.size(); ++n) {
+    const std::uint32_t c = classes[n].spring_class;
+    EXPECT_NEAR(run.changes()[n], lengths[c] / run.model().spring_classes[c].rest_length - 1.0, 1e-7);
+  }
+  EXPECT_GT(std::ranges::max(run.changes()), 0.01f);
+  EXPECT_LT(std::ranges::min(run.changes()), -0.01f);
+  // Of a run without actuators there are none.
+  LiveRun plain = run_of(scene_of());
+  EXPECT_TRUE(plain.take().ok() && plain.changes().empty());
+}
+
 TEST(LiveRun, GoesOnWithOtherValuesFromWhereItIs) {
   const Scene scene = scene_of(), stiff = scene_of({"cube[0].structural.stiffness=4000"});
   LiveRun run = run_of(scene);

@@ -125,6 +125,22 @@ def touch(b, where):
     require(abs(height(last) - at_last) < 1e-12, f"{where}: the scene restored moves otherwise")
 
 
+def actuated(b, where):
+    """The colour of springs that follow signals, of which other runs say nothing."""
+    if not b.call("return aspic.recording.run.facts.actuated.length"):
+        require(not b.call("return aspic.offers('actuation')"), f"{where}: has the colour actuation without an actuator")
+        return
+    picture = lambda: b.call("return aspic.picture(160, 90)")
+    b.call("aspic.player.playing = false; aspic.player.seek(Infinity); aspic.setColour('material')")
+    before = picture()
+    b.call("aspic.setColour('actuation')")
+    require(not b.call("return document.getElementById('legend').hidden"), f"{where}: actuation has no legend")
+    require(picture() != before, f"{where}: actuation looks like material")
+    pictures, most = b.call("const { changes } = aspic.recording.run; return [changes.length, Math.max(...changes.at(-1).map(Math.abs))]")
+    require(pictures == b.call("return aspic.recording.read"), f"{where}: {pictures} pictures say how far rest lengths are changed")
+    require(0.001 < most < 1, f"{where}: rest lengths are changed by {most} at most")
+
+
 def open_pages(b, job):
     for number, page in enumerate(job["pages"]):
         where = page.rsplit("/", 1)[-1]
@@ -137,6 +153,7 @@ def open_pages(b, job):
         wait(b, "aspic.stats.pictures > 0", f"a picture of {where}")
         print(f"{b.name} {where}: first picture after {b.call('return aspic.stats.firstPicture'):.0f} ms, "
               f"{b.call('return aspic.recording.rate'):.0f} steps a second")
+        actuated(b, where)
         if number == 0 and job.get("touch"):
             touch(b, where)
             nameless = b.call("return [...document.querySelectorAll('button, select, input')].filter((e) => "

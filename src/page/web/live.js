@@ -6,7 +6,7 @@ class LiveRun extends Run {
     Object.assign(this, { states: [], hashes: [] });  // all numbers of each picture, and their hash
   }
 
-  take({ step, hash, numbers, kinetic, elastic, gravitational }) {
+  take({ step, hash, numbers, kinetic, elastic, gravitational, changes }) {
     const { end, facts } = this, particles = facts.particles, balls = facts.balls.length, ballsFrom = 6 * particles;
     end.hash = hash;
     end.steps.push(step);
@@ -17,13 +17,14 @@ class LiveRun extends Run {
     this.positions.push(numbers.subarray(0, 3 * particles));
     this.balls.push(numbers.subarray(ballsFrom, ballsFrom + 3 * balls));
     this.turn(numbers.subarray(ballsFrom + 6 * balls));
+    if (facts.actuated.length > 0) this.changes.push(changes);
   }
 
   // Forgets all pictures but so many.
   keep(count) {
     const { end } = this;
     delete end.diverged;
-    for (const list of [end.steps, end.kinetic, end.elastic, end.gravitational, this.times, this.states, this.hashes, this.positions, this.balls, this.turns])
+    for (const list of [end.steps, end.kinetic, end.elastic, end.gravitational, this.times, this.states, this.hashes, this.positions, this.balls, this.turns, this.changes])
       list.length = Math.min(list.length, count);
   }
 }

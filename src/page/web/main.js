@@ -144,10 +144,9 @@ class Page {
     });
   }
 
-  // Only actuated runs have the colour `actuation`, and those that are simulated here say nothing of it.
+  // Only actuated runs have the colour `actuation`.
   offers(colour) {
-    const { runs, facts } = this.recording;
-    if (colour === "actuation") return !facts.live && runs.every((run) => run.facts.actuated.length > 0);
+    if (colour === "actuation") return this.recording.runs.every((run) => run.facts.actuated.length > 0);
     return colours.includes(colour);
   }
 
