@@ -18,6 +18,9 @@ function lightRows(towards) {
   return [x, cross(z, x), z];
 }
 
+// Cords take the place of a surface.
+const drawsCords = (look) => look.solid && !look.structural;
+
 class Bodies {
   constructor(device, run) {
     const { gl } = device, { facts } = run;
@@ -33,7 +36,8 @@ class Bodies {
     gl.vertexAttribIPointer(1, 4, gl.UNSIGNED_INT, 20, 4);
     gl.bindVertexArray(null);
     this.ribbons = {};
-    for (const type of types) this.addRibbons(type);
+    for (const type of types) this.addRibbons(type, this.springs.ofType(type));
+    this.addRibbons("cords", this.springs.cords());
     const rods = facts.bodies.flatMap((body) => body.rods);
     if (rods.length > 0) this.rods = this.mesh(rodMesh(rods));
     this.terrain = facts.terrain.map((t) => this.placed(t));
@@ -55,13 +59,13 @@ class Bodies {
     return this.device.array([[buffer, 0, 3, { stride: 24 }], [buffer, 1, 3, { stride: 24, offset: 12 }]], indices);
   }
 
-  addRibbons(type) {
-    const springs = this.springs.ofType(type), ends = new Uint32Array(2 * springs.length);
+  addRibbons(name, springs) {
+    const ends = new Uint32Array(2 * springs.length);
     if (springs.length === 0) return;
     springs.forEach((s, i) => ends.set([this.springs.a[s], this.springs.b[s]], 2 * i));
     const values = new Float32Array(springs.length), buffer = this.device.buffer(values);
     const array = this.device.array([[ends, 0, 2, { divisor: 1 }], [buffer, 1, 1, { divisor: 1 }]]);
-    this.ribbons[type] = { springs, values, buffer, array, count: springs.length };
+    this.ribbons[name] = { springs, values, buffer, array, count: springs.length };
   }
 
   placed(t) {
@@ -113,9 +117,8 @@ class Bodies {
     this.device.bind(0, this.particles);
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, textureWidth, this.rows, gl.RGBA, gl.FLOAT, texels);
     if (scaled && look.colour !== "speed")
-      for (const type of types) {
-        const ribbons = this.ribbons[type];
-        if (!ribbons || !(look[type] || (look.solid && type === "structural"))) continue;
+      for (const [name, ribbons] of Object.entries(this.ribbons)) {
+        if (!(name === "cords" ? drawsCords(look) : look[name])) continue;
         ribbons.springs.forEach((s, i) => { ribbons.values[i] = springs.value(look.colour, s, x, v); });
         this.fill(ribbons.buffer, ribbons.values);
       }

@@ -237,24 +237,34 @@ class Painter {
       gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, facts.particles);
     }
     gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
-    for (const type of types) {
-      const ribbons = bodies.ribbons[type];
-      const cord = type === "structural" && look.solid && !look.structural && facts.bodies.some((body) => body.style === "cords");
-      if (!ribbons || !(look[type] || cord)) continue;
-      device.use(programs.springs, frame, { radius: springRadius[type] * facts.spacing, fades: cord ? 1 : 0,
-        from_ends: look.colour === "speed" ? 1 : 0, base_colour: cord && look.colour !== "type" ? look.tint ?? [0.035, 0.04, 0.055] : view.springColours[type] });
-      gl.bindVertexArray(ribbons.array.vao);
-      const draw = () => gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, ribbons.count);
-      if (cord) this.blended(draw);
-      else draw();
-      gl.bindVertexArray(null);
-    }
+    for (const type of types)
+      if (look[type]) this.drawRibbons(type, { radius: springRadius[type] * facts.spacing, fades: 0, base_colour: view.springColours[type] });
     if (!look.solid) return;
     this.blended(() => this.drawSkins((body) => {
       if (body.style !== "sheet") return false;
       device.use(programs.sheet, frame, { base_colour: this.colourOf(body) });
       return true;
     }));
+    this.drawCords();
+  }
+
+  drawRibbons(name, uniforms) {
+    const { device, programs, frame, look, bodies: { ribbons } } = this, { gl } = device;
+    if (!ribbons[name]) return;
+    device.use(programs.springs, frame, { ...uniforms, from_ends: look.colour === "speed" ? 1 : 0 });
+    gl.bindVertexArray(ribbons[name].array.vao);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, ribbons[name].count);
+    gl.bindVertexArray(null);
+  }
+
+  // Of nets. They cover what is behind them in part, and so hide nothing that is drawn later: flesh is drawn between two passes.
+  drawCords() {
+    const { look, view, bodies: { facts }, device: { gl } } = this;
+    if (!drawsCords(look)) return;
+    const base_colour = look.colour === "type" ? view.springColours.structural : look.tint ?? [0.035, 0.04, 0.055];
+    gl.depthMask(false);
+    this.blended(() => this.drawRibbons("cords", { radius: springRadius.structural * facts.spacing, fades: 1, base_colour }));
+    gl.depthMask(true);
   }
 
   colourOf(body) {
@@ -284,5 +294,6 @@ class Painter {
       device.use(programs.jelly, frame, { base_colour: this.colourOf(body), reach: body.reach });
       return true;
     });
+    this.drawCords();
   }
 }

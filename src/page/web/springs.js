@@ -63,6 +63,13 @@ class Springs {
     return Uint32Array.from(own);
   }
 
+  // Structural springs of nets: their cords.
+  cords() {
+    const nets = this.run.facts.bodies.filter((body) => body.style === "cords");
+    const ofNet = (p) => nets.some(({ first, count }) => p >= first && p < first + count);
+    return this.ofType("structural").filter((s) => ofNet(this.a[s]));
+  }
+
   // What a colour shows of one spring between x and moving at v (all particles').
   value(colour, s, x, v) {
     const own = this.run.facts.classes[this.classes[s]], a = 3 * this.a[s], b = 3 * this.b[s];
