@@ -65,6 +65,9 @@ TEST(LiveRun, KnowsHowFarRestLengthsAreChanged) {
   }
   EXPECT_GT(std::ranges::max(run.changes()), 0.01f);
   EXPECT_LT(std::ranges::min(run.changes()), -0.01f);
+  // As a reader changes them.
+  ASSERT_TRUE(run.change("actuator[0].amplitude=0.0\n").ok() && run.take().ok());
+  EXPECT_THAT(run.changes(), testing::Each(0.0f));
   // Of a run without actuators there are none.
   LiveRun plain = run_of(scene_of());
   EXPECT_TRUE(plain.take().ok() && plain.changes().empty());
