@@ -75,11 +75,11 @@ alone_header() {
   (cd build/alone && echo "#include \"${1#*/}\"" | eval "$command -fsyntax-only -x c++ -") || { echo "^ $1" && return 1; }
 }
 
-# in_parts WHAT COMMAND ITEM …: COMMAND over the items in parts, until ASPIC_ALONE_SECONDS are over if they are set; says how many were
-# left then.
+# in_parts WHAT COMMAND ITEM …: COMMAND over the items, as many at once as there are processors, until ASPIC_ALONE_SECONDS are over if
+# they are set; says how many were left then.
 in_parts() {
   local what=$1 command=$2 items=("${@:3}") part at=0 failed=0 started=$SECONDS
-  part=$((8 * $(nproc)))
+  part=$(nproc) # few, since one may take half a minute
   while [ "$at" -lt "${#items[@]}" ]; do
     if [ $((SECONDS - started)) -ge "${ASPIC_ALONE_SECONDS:-86400}" ]; then
       echo "alone: $at $what compiled, $((${#items[@]} - at)) older ones left for want of time" | tee /dev/fd/3
