@@ -164,8 +164,8 @@ endfunction()
 # aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each suite of it a test of ctest's (cmake/AspicSuites.cmake):
 # a process for each case would make a context and compile the shaders each time. EACH_CASE: a process for each case all the
 # same, for cases that take long or want a process of their own. Patterns are those of --gtest_filter: SOFTWARE pattern gives the
-# label software to tests that mean software rasterisers alone, FULL part=pattern … moves tests to
-# those parts of the full tier.
+# label software to tests that mean software rasterisers alone, FULL part=pattern … moves
+# tests to those parts of the full tier.
 function(aspic_test name)
   cmake_parse_arguments(arg "EACH_CASE" "SOFTWARE" "SOURCES;DEPENDS;FULL" ${ARGN})
   aspic_test_program(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS})

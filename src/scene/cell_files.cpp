@@ -15,6 +15,7 @@ namespace {
 /// What stands for the numbers of an array: digits for themselves, letters for larger ones.
 constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 constexpr std::size_t most_materials = letters.size();
+
 /// Cells and their palette with a character for each number.
 struct FileCells {
   CellLayers layers;
