@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""An independent double-precision reading of Aspic's physics, for cubes on terrain and balls that meet them.
+"""An independent double-precision reading of Aspic's physics, for cubes and bodies of cells on terrain, actuators, and balls.
 
 Written from the description in docs/ alone and sharing no code with the product, so that a misreading there
 cannot hide behind the same misreading here. Sums are taken in any order: compare within a tolerance.
@@ -14,6 +14,7 @@ import tomllib
 import numpy as np
 
 from oracle_balls import Balls
+from oracle_cells import MATERIAL, Actuation, build_voxels, cells_of_cube
 from oracle_contact import CoulombStep, dot
 from oracle_implicit import backward_euler
 from oracle_scene import BALL, TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene, surface_facts
@@ -79,12 +80,28 @@ class World:
         self.terrains = [Terrain(t, contact, f"terrain[{i}]") for i, t in enumerate(scene["terrain"])]
         self.readings = readings
 
-        cubes = [build_cube(c, readings, f"cube[{i}]") for i, c in enumerate(scene["cube"])]
-        self.m, self.free, self.x, self.v = (np.concatenate(q) for q in zip(*(p for p, _ in cubes)))
-        starts = np.cumsum([0] + [len(particles[0]) for particles, _ in cubes])
-        self.a, self.b = (np.concatenate([s[end] + start for (_, s), start in zip(cubes, starts)])
+        bodies = [build_cube(c, readings, f"cube[{i}]") for i, c in enumerate(scene["cube"])]
+        cells = []
+        if scene["actuator"]:
+            for i, table in enumerate(scene["cube"]):
+                particles, made = bodies[i]
+                springs, found = cells_of_cube(table, made, f"cube[{i}]")
+                bodies[i] = particles, springs
+                cells.append(found)
+        materials = {m["name"]: filled(m, MATERIAL, "material") for m in scene["material"]}
+        for i, table in enumerate(scene["voxels"]):
+            made, found = build_voxels(table, materials, readings, f"voxels[{i}]")
+            bodies.append(made)
+            cells.append(found)
+        self.m, self.free, self.x, self.v = (np.concatenate(q) for q in zip(*(p for p, _ in bodies)))
+        starts = np.cumsum([0] + [len(particles[0]) for particles, _ in bodies])
+        self.a, self.b = (np.concatenate([s[end] + start for (_, s), start in zip(bodies, starts)])
                           for end in (0, 1))
-        self.r, self.k, self.c = (np.concatenate([s[q] for _, s in cubes]) for q in (2, 3, 4))
+        self.r, self.k, self.c = (np.concatenate([s[q] for _, s in bodies]) for q in (2, 3, 4))
+        self.r0, self.steps, self.actuation = self.r, 0, None
+        if scene["actuator"]:
+            first = np.cumsum([0] + [len(springs[0]) for _, springs in bodies])
+            self.actuation = Actuation(scene["actuator"], list(zip(first, cells)))
         self.w = np.where(self.free, 1.0 / self.m, 0.0)
         surfaces = [Surface(tuple(made["n"]), made["s"], made["k"], made["m"], start, self.x,
                             contact["body-friction"] if made["mu"] is None else made["mu"])
@@ -104,7 +121,14 @@ class World:
         return np.stack([np.bincount(self.a, f[:, i], count) - np.bincount(self.b, f[:, i], count)
                          for i in range(3)], axis=1)
 
-    def acceleration(self, x, v):
+    def be_at(self, c):
+        """Rest lengths become those of the time t + ch."""
+        if self.actuation:
+            self.r = self.actuation.lengths(self.r0, self.h * (self.steps + c))
+
+    def acceleration(self, c, x, v):
+        """At the time t + ch."""
+        self.be_at(c)
         f = self.m[:, None] * self.gravity + self.spring_force(x, v)
         if self.touch:
             f = self.touch.forces(x, v, f)
@@ -133,6 +157,7 @@ class World:
     def step(self):
         """Advances by h; on divergence the last good state is kept and Diverged is raised."""
         with np.errstate(over="ignore", invalid="ignore"):
+            self.be_at(0)
             self.ground = CoulombStep(self) if self.model == "coulomb" else None
             if self.touch:
                 self.touch.begin(self.x, self.v)
@@ -151,51 +176,53 @@ class World:
         if not good.all():
             raise Diverged(f"particle {np.flatnonzero(~good)[0]} diverged with a time step of {self.h} s")
         self.x, self.v = x, v
+        self.steps += 1
 
 
+# a(c, x, v) is the acceleration at the time t + ch.
 def explicit_euler(a, x, v, h):
-    return x + h * v, v + h * a(x, v)
+    return x + h * v, v + h * a(0, x, v)
 
 
 def symplectic_euler(a, x, v, h):
-    v = v + h * a(x, v)
+    v = v + h * a(0, x, v)
     return x + h * v, v
 
 
 def midpoint(a, x, v, h):
-    x_m, v_m = x + h / 2 * v, v + h / 2 * a(x, v)
-    return x + h * v_m, v + h * a(x_m, v_m)
+    x_m, v_m = x + h / 2 * v, v + h / 2 * a(0, x, v)
+    return x + h * v_m, v + h * a(1 / 2, x_m, v_m)
 
 
 def runge_kutta_4(a, x, v, h):
-    v1, a1 = v, a(x, v)
+    v1, a1 = v, a(0, x, v)
     v2 = v + h / 2 * a1
-    a2 = a(x + h / 2 * v1, v2)
+    a2 = a(1 / 2, x + h / 2 * v1, v2)
     v3 = v + h / 2 * a2
-    a3 = a(x + h / 2 * v2, v3)
+    a3 = a(1 / 2, x + h / 2 * v2, v3)
     v4 = v + h * a3
-    a4 = a(x + h * v3, v4)
+    a4 = a(1, x + h * v3, v4)
     return x + h / 6 * (v1 + 2 * v2 + 2 * v3 + v4), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
 
 
 def heun_3(a, x, v, h):
-    a1 = a(x, v)
+    a1 = a(0, x, v)
     v2 = v + h / 3 * a1
-    a2 = a(x + h / 3 * v, v2)
+    a2 = a(1 / 3, x + h / 3 * v, v2)
     v3 = v + 2 * h / 3 * a2
-    a3 = a(x + 2 * h / 3 * v2, v3)
+    a3 = a(2 / 3, x + 2 * h / 3 * v2, v3)
     return x + h / 4 * (v + 3 * v3), v + h / 4 * (a1 + 3 * a3)
 
 
 def velocity_verlet(a, x, v, h):
-    a0 = a(x, v)
+    a0 = a(0, x, v)
     x1 = x + h * v + h * h / 2 * a0
-    return x1, v + h / 2 * (a0 + a(x1, v + h * a0))
+    return x1, v + h / 2 * (a0 + a(1, x1, v + h * a0))
 
 
 def implicit_euler_one_pass(a, x, v, h):
-    x_p, v_p = x + h * v, v + h * a(x, v)
-    return x + h * v_p, v + h * a(x_p, v_p)
+    x_p, v_p = x + h * v, v + h * a(0, x, v)
+    return x + h * v_p, v + h * a(1, x_p, v_p)
 
 
 INTEGRATORS = {

@@ -61,6 +61,7 @@ def backward_euler(world):
     start = world.m[:, None] * world.gravity + world.spring_force(x0, v0)
     if world.touch:
         touching = world.touch.ahead(x0, v0, start, 1)
+    world.be_at(1)
     v, held_by = newton(world, evaluate, v0, touching)
     if touching:
         # Once more, with what touches where this ended.

@@ -79,14 +79,16 @@ def read_scene(path):
         scene = tomllib.load(file)
     for kind in ("goal-net", "launcher"):
         if scene.pop(kind, None):
-            raise SceneError(f"[[{kind}]] is not covered here: cubes and balls only.")
+            raise SceneError(f"[[{kind}]] is not covered here: cubes, cells and balls only.")
     known = {"schema": None, "name": "", "author": "", "simulation": SIMULATION, "contact": CONTACT, "terrain": [],
-             "cube": [], "ball": [], "view": None}
+             "cube": [], "ball": [], "material": [], "voxels": [], "actuator": [], "view": None}
     scene = filled(scene, known, "scene")
     if scene["schema"] != 1:
         raise SceneError(f"schema is {scene['schema']}; it must be 1.")
-    if not scene["cube"]:
-        raise SceneError("The scene is empty: it has no [[cube]].")
+    if not scene["cube"] and not scene["voxels"]:
+        raise SceneError("The scene is empty: it has neither [[cube]] nor [[voxels]].")
+    if scene["voxels"] and (scene["contact"]["bodies"] or scene["contact"]["self"]):
+        raise SceneError("Contact between bodies of cells is not covered here.")
     return scene
 
 
