@@ -41,11 +41,25 @@ ASPIC_API std::optional<std::string_view> first_not_finite(const Measures& measu
 /// that read channels.
 ASPIC_API Measures measure(const Model& model, const State& state, const Inputs& inputs = {});
 
-/// What actuators put into springs in the step from one state of the model to the next [J]: −∫ Σ k(L − r) dr,
-/// by the trapezoidal rule; its error is of second order in h. Negative where springs drive signals. `inputs`
-/// are those of the step. Summed over a run it is the work that actuators did; 0 without any.
-ASPIC_API double actuator_work(const Model& model, const State& from, const State& to,
-                               const Inputs& inputs = {});
+/// The work of actuators over a run, added up from its states [J]: −∫ Σ k(L − r) dr by the trapezoidal rule
+/// from each state to the next, with the rest lengths that measure() takes. However many steps lie between
+/// two states, it is the change of the elastic energy less the work of particles on springs, ∫ Σ k(L − r) dL
+/// by the same rule, and exact where lengths hold still; else its error is of second order in the time
+/// between.
+class ASPIC_API ActuatorWork {
+ public:
+  /// The work from the first state that was added to this one, the next of the run; negative where springs
+  /// drive signals. Nothing without actuators. Where `model` has other constants than before, their change
+  /// counts; where it has other actuated classes, nothing is added. The rest as for measure().
+  std::optional<double> add(const Model& model, const State& state, const Inputs& inputs = {});
+
+ private:
+  struct Load {
+    double length, pull;  // of a class: r [m], Σ k(L − r) [N]
+  };
+  std::vector<Load> before_;
+  double sum_ = 0.0;
+};
 
 /// The elastic energy that springs would hold at the largest |w| of their signals, were the body kept as it
 /// is at rest [J]: what a cycle can do at most. 0 without actuators.

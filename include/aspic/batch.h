@@ -29,6 +29,7 @@ struct BatchQuantities {
   bool momentum = false;                 ///< Measures::momentum, balls included
   bool energies = false;                 ///< those of Measures, balls included
   std::optional<std::size_t> body = {};  ///< positions of this body of particle_ranges(), which all must have
+  bool actuator_work = false;            ///< ActuatorWork over the recorded states
 };
 
 /// Arrays of a recorded run, row-major: the last index is that of neighbours in memory. Those that were not
@@ -40,6 +41,7 @@ struct BatchRecord {
   std::vector<double> centre_of_mass;    ///< (instances, times, 3) [m]
   std::vector<double> momentum;          ///< (instances, times, 3) [N·s]
   std::vector<double> energy;            ///< (instances, times, 3): kinetic, elastic, gravitational [J]
+  std::vector<double> actuator_work;     ///< (instances, times) [J]; 0 without actuators
   std::vector<float> positions;          ///< (instances, times, particles, 3) [m]
   std::vector<std::uint64_t> diverged;   ///< (instances): Divergence::step; 0: it did not
   std::vector<std::uint64_t> hash;       ///< (instances): state_hash() of the last state

@@ -136,6 +136,8 @@ class ASPIC_API RunFiles {
   std::vector<std::unique_ptr<FrameSink>> take_frame_sinks();
   /// Names of the completed files.
   const std::vector<std::string>& written() const;
+  /// After finish(): the work of actuators over the series, as of its last row [J]; nothing without either.
+  std::optional<double> actuator_work() const;
 
  private:
   struct Parts;

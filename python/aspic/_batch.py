@@ -27,7 +27,7 @@ __all__ = ["Batch", "Instance"]
 Path = Union[str, "os.PathLike[str]"]
 
 # What may be recorded of all particles of an instance.
-_OF_ALL = ("centre-of-mass", "momentum", "energy")
+_OF_ALL = ("centre-of-mass", "momentum", "energy", "actuator-work")
 
 
 class Instance(Steerable):
@@ -196,8 +196,9 @@ class Batch:
 
         ``duration``: from where each is [s], ≥ 0; ``every``: the interval of samples [s], the first at once, each at
         the step nearest to its time, the last at the end; None: the start and the end alone. ``record``:
-        ``"centre-of-mass"`` (n, t, 3) [m], ``"momentum"`` (n, t, 3) [N·s], ``"energy"`` of (n, t) [J], and of one body
-        ``"cube[0].positions"`` (n, t, p, 3) [m], or ``"positions"`` where every instance has a single body. Raises
+        ``"centre-of-mass"`` (n, t, 3) [m], ``"momentum"`` (n, t, 3) [N·s], ``"energy"`` of (n, t) [J],
+        ``"actuator-work"`` (n, t) [J], added up over the samples, and of one body ``"cube[0].positions"`` (n, t, p, 3)
+        [m], or ``"positions"`` where every instance has a single body. Raises
         UsageError for others, and for a body that has not the same number and as many particles in all instances;
         SceneError where the record is larger than memory. A divergence raises nothing: ``diverged`` of the result says
         which. Ctrl-C and ``stop()`` act as in ``step()``, and the record is lost.
@@ -207,10 +208,11 @@ class Batch:
             raise UsageError(f"an interval of samples is more than 0 s, not {every}")
         body, kinds = self._wanted(names)
         interval = every if every is not None else duration if duration > 0 else 1.0
-        time, centres, momenta, energies, positions, diverged, hashes = self._core.run(
-            duration, interval, "centre-of-mass" in kinds, "momentum" in kinds, "energy" in kinds, body
+        centre, momentum, energy, actuators = (kind in kinds for kind in _OF_ALL)
+        time, centres, momenta, energies, work, positions, diverged, hashes = self._core.run(
+            duration, interval, centre, momentum, energy, actuators, body
         )
-        of: dict[str, Any] = {"centre-of-mass": centres, "momentum": momenta, "positions": positions}
+        of: dict[str, Any] = {"centre-of-mass": centres, "momentum": momenta, "actuator-work": work, "positions": positions}
         if energies is not None:
             of["energy"] = Energy(*(energies[..., part].copy() for part in range(3)))
         series = {name: of[kind] for name, kind in zip(names, kinds)}

@@ -53,6 +53,7 @@ KINDS: dict[str, Kind] = {
     "energy.kinetic": Kind((), "J", "kinetic energy"),
     "energy.elastic": Kind((), "J", "elastic energy"),
     "energy.gravitational": Kind((), "J", "gravitational energy"),
+    "actuator-work": Kind((), "J", "work of actuators since the first sample"),
     "momentum": Kind(("axis",), "N s", "momentum"),
     "centre-of-mass": Kind(("axis",), "m", "centre of mass"),
     "max-speed": Kind((), "m/s", "largest speed"),
@@ -92,6 +93,7 @@ MOTION = (
     "tension",
     "energy",
     "momentum",
+    "actuator-work",
 )
 
 

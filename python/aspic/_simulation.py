@@ -122,8 +122,8 @@ class Simulation(Replayable):
         ``duration`` [s] or ``steps``: how far from here; neither: to the end of the scene's duration. ``every``: the
         interval of samples [s], the first at once, each at the step nearest to its time; None: the start and the end
         alone. ``record``: ``"energy"``, ``"momentum"``, ``"centre-of-mass"``, ``"positions"``, ``"velocities"``,
-        ``"max-speed"``, ``"min-height"``, ``"hash"``, and of a body ``"cube[0].positions"``, ``"….velocities"``,
-        ``"….centre-of-mass"``, ``"….momentum"``. Also ``"speed"``, ``"force"``, ``"contact-force"``, ``"contact"``,
+        ``"max-speed"``, ``"min-height"``, ``"hash"``, ``"actuator-work"`` [J], added up over the samples, and of a body
+        ``"cube[0].positions"``, ``"….velocities"``, ``"….centre-of-mass"``, ``"….momentum"``. Also ``"speed"``, ``"force"``, ``"contact-force"``, ``"contact"``,
         ``"mean-strain"`` of particles, ``"strain"`` and ``"tension"`` of springs, ``"ball-positions"``,
         ``"ball-velocities"``, ``"ball-angular-velocities"``; ``"motion"`` is all that exports hold. ``controls``: the
         ``inputs`` by step, (steps, inputs), in their order; then the run has so many steps. Raises UsageError for

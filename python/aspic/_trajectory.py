@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from . import _exports
+from . import _aspic, _exports
 from ._body import weighted
 from ._errors import UsageError
 from ._scene import Scene
@@ -109,8 +109,6 @@ class Series(Mapping[str, Any]):
             import xarray  # type: ignore[import-not-found, unused-ignore]
         except ModuleNotFoundError:
             raise _exports.needs("xarray", "a dataset") from None
-        from . import _aspic
-
         variables = {}
         for name, array in arrays.items():
             kind = _exports.kind_of(name)
@@ -341,14 +339,23 @@ class _Sample:
         return self._simulation.hash
 
 
+def _of_motion(simulation: Readable) -> list[str]:
+    """What exports hold of it."""
+    core = simulation._core
+    left = set() if core.balls() else set(_OF_BALLS)
+    if core.add_work(_aspic.ActuatorWork()) is None:
+        left.add("actuator-work")
+    return [name for name in _exports.MOTION if name not in left]
+
+
 class Recorder:
     """Takes samples of a simulation. Raises UsageError for a name that cannot be recorded."""
 
     def __init__(self, simulation: Readable, names: Sequence[str]):
         if isinstance(names, str):
             names = [names]
-        balls = bool(simulation._core.balls())
-        motion = [name for name in _exports.MOTION if balls or name not in _OF_BALLS]
+        self._work = _aspic.ActuatorWork()
+        motion = _of_motion(simulation) if "motion" in names else []
         names = [part for name in names for part in (motion if name == "motion" else [name])]
         self._simulation = simulation
         self._samples: dict[str, list[Any]] = {name: [] for name in names}
@@ -368,6 +375,8 @@ class Recorder:
                 return lambda s: self._simulation.read(what.replace("-", "_"))
             if what in _QUANTITIES:
                 return lambda s: s.quantities[what]
+            if what == "actuator-work":
+                return lambda s: self._simulation._core.add_work(self._work) or 0.0
             if what == "hash":
                 return lambda s: s.hash
             particles = slice(None)
@@ -381,7 +390,7 @@ class Recorder:
             if what == "momentum":
                 return lambda s: weighted(masses, s.velocities[particles])
             return lambda s: weighted(masses, s.positions[particles]) / float(masses.sum())
-        known = ["motion", *_OF_ALL, *_ARRAYS, "centre-of-mass", "hash", *_QUANTITIES, *_OF_BALLS]
+        known = ["motion", *_OF_ALL, *_ARRAYS, "centre-of-mass", "hash", "actuator-work", *_QUANTITIES, *_OF_BALLS]
         raise UsageError(
             f"{name!r} cannot be recorded; {', '.join(known)} can, and of a body "
             f"{', '.join(f'{self._example()}.{part}' for part in _ARRAYS + _OF_BODIES)}"

@@ -126,6 +126,13 @@ Measures Instance::measures() {
   });
 }
 
+std::optional<double> Instance::add_work(ActuatorWork& work) {
+  return batch_.alone([&](Contents& contents) {
+    return work.add(*take(contents.batch.model(number_)), take(contents.batch.state(number_)),
+                    contents.inputs[number_]);
+  });
+}
+
 StateQuantities Instance::quantities() {
   return batch_.alone([&](Contents& contents) {
     return quantities_of(*take(contents.batch.model(number_)), take(contents.batch.state(number_)),

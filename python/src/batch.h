@@ -94,6 +94,7 @@ class Instance {
   bool doubles() const { return false; }
   State state();
   Measures measures();
+  std::optional<double> add_work(ActuatorWork& work);
   StateQuantities quantities();
   std::uint64_t read_into(const StateView& view);
   std::optional<Divergence> divergence();

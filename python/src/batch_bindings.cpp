@@ -19,9 +19,10 @@ namespace aspic::python {
 namespace {
 
 using Numbers = std::optional<Array<double>>;
-/// Times (n, t), centres of mass, momenta, energies (n, t, 3), positions (n, t, p, 3), divergences (n,).
-using RecordArrays = std::tuple<Array<double>, Numbers, Numbers, Numbers, std::optional<Array<float>>,
-                                Array<std::uint64_t>, std::vector<std::string>>;
+/// Times (n, t), centres of mass, momenta, energies (n, t, 3), work (n, t), positions (n, t, p, 3),
+/// divergences (n,).
+using RecordArrays = std::tuple<Array<double>, Numbers, Numbers, Numbers, Numbers,
+                                std::optional<Array<float>>, Array<std::uint64_t>, std::vector<std::string>>;
 
 /// As state_hash_text() writes it.
 std::string text_of(std::uint64_t hash) {
@@ -31,20 +32,22 @@ std::string text_of(std::uint64_t hash) {
 }
 
 RecordArrays run(Batch& batch, double duration, double interval, bool centre_of_mass, bool momentum,
-                 bool energies, std::optional<std::size_t> body) {
-  BatchRecord record = batch.run(duration, interval, {centre_of_mass, momentum, energies, body});
+                 bool energies, bool work, std::optional<std::size_t> body) {
+  BatchRecord record = batch.run(duration, interval, {centre_of_mass, momentum, energies, body, work});
   const std::size_t n = record.instances, t = record.times;
   const auto vectors = [&](bool wanted, std::vector<double>& numbers) -> Numbers {
     if (!wanted) return std::nullopt;
     return as_array(std::move(numbers), {n, t, 3});
   };
+  Numbers works;
+  if (work) works = as_array(std::move(record.actuator_work), {n, t});
   std::optional<Array<float>> positions;
   if (body) positions = as_array(std::move(record.positions), {n, t, record.particles, 3});
   std::vector<std::string> hashes;
   for (const std::uint64_t hash : record.hash) hashes.push_back(text_of(hash));
   return RecordArrays(as_array(std::move(record.time), {n, t}),
                       vectors(centre_of_mass, record.centre_of_mass), vectors(momentum, record.momentum),
-                      vectors(energies, record.energy), std::move(positions),
+                      vectors(energies, record.energy), std::move(works), std::move(positions),
                       as_array(std::move(record.diverged), {n}), std::move(hashes));
 }
 
@@ -131,7 +134,8 @@ void bind_batch(nb::module_& module) {
       .def("advance", &Batch::advance, nb::arg("steps"), "Steps; how many are diverged.")
       .def("stop", &Batch::stop, "Ends what goes on in another thread.")
       .def("run", &run, nb::arg("duration"), nb::arg("interval"), nb::arg("centre_of_mass"),
-           nb::arg("momentum"), nb::arg("energies"), nb::arg("body").none(), "Steps and records.")
+           nb::arg("momentum"), nb::arg("energies"), nb::arg("work"), nb::arg("body").none(),
+           "Steps and records.")
       .def("reset", &reset, nb::arg("mask").none(), "To the start.")
       .def("steps", &steps, "Of each, since its start.")
       .def("times", &times, "Of each [s].")

@@ -81,6 +81,7 @@ void bind_reading(nb::class_<T>& bound) {
       .def(
           "measures", [](T& t) { return row_of(t.measures()); },
           "Kinetic, elastic, gravitational, momentum, largest speed, lowest height.")
+      .def("add_work", &T::add_work, nb::arg("work"), "The work of actuators so far.")
       .def(
           "quantities", [](T& t) { return arrays_of(t.quantities()); },
           "Speed, mean strain, force, contact force and contact of particles; strain and tension of springs.")

@@ -77,6 +77,10 @@ Measures Simulation::measures() {
   return alone([&] { return measure(*model_, take(backend_.solver->state()), backend_.solver->inputs()); });
 }
 
+std::optional<double> Simulation::add_work(ActuatorWork& work) {
+  return alone([&] { return work.add(*model_, take(backend_.solver->state()), backend_.solver->inputs()); });
+}
+
 StateQuantities Simulation::quantities() {
   return alone(
       [&] { return quantities_of(*model_, take(backend_.solver->state()), backend_.solver->inputs()); });

@@ -83,6 +83,8 @@ class Simulation {
   /// Error (usage): numbers of another model.
   void load(const State& state, const InputLog* log);
   Measures measures();
+  /// Of actuators up to this state: ActuatorWork::add().
+  std::optional<double> add_work(ActuatorWork& work);
   StateQuantities quantities();
   /// A state with what belongs to it, for f(model, state, inputs), without the GIL.
   template <class F>

@@ -83,6 +83,8 @@ void bind_simulation(nb::module_& module) {
   nb::class_<InputLog>(module, "InputLog", "The inputs of a run by step.")
       .def_prop_ro(
           "hash", [](const InputLog& log) { return log.hash_text(); }, "16 hexadecimal digits.");
+  nb::class_<ActuatorWork>(module, "ActuatorWork", "Adds up what actuators do over states of a run.")
+      .def(nb::init<>());
   nb::class_<Simulation> bound(module, "Simulation", "A scene, a solver and the inputs so far.");
   bind_reading(bound);
   bound

@@ -113,6 +113,30 @@ def test_controls_are_inputs_by_step(robot: aspic.Scene) -> None:
         sim.run(steps=4, controls=np.zeros((5, 2)))
 
 
+def test_work_is_booked(robot: aspic.Scene) -> None:
+    robot.add_actuator("grow", material="muscle", amplitude=0.2, signal="input")
+    sim = simulation(robot, "cpu")
+    before: Any = sim.run(0.0, record=["energy", "actuator-work"])
+    sim.inputs["grow"] = 1.0
+    now: Any = sim.run(1.0, every=0.001, record=["energy", "actuator-work"])
+    # The spring's energy is put in by the jump, which is before the first sample, and dampers take it.
+    assert before["actuator-work"].tolist() == [0] and now["actuator-work"].shape == (1001,)
+    assert before["energy"].elastic[-1] < 1e-9 < now["energy"].elastic[0]
+    assert not now["actuator-work"].any() and now["energy"].total[-1] < now["energy"].total[0]
+    batch = aspic.Batch([robot, robot])
+    batch.step(10)
+    batch[1].inputs["grow"] = 1.0
+    out = batch.run(0.1, every=0.02, record=["actuator-work"])
+    assert out["actuator-work"].shape == (2, 6) and not out["actuator-work"].any()
+    robot["actuator[grow].signal"] = "sine"
+    path: Any = simulation(robot, "cpu").run(2.0, every=0.01, record=["actuator-work"])
+    assert path["actuator-work"][0] == 0 and path["actuator-work"][-1] > 0
+    together = aspic.Batch(robot, count=2).run(2.0, every=0.01, record=["actuator-work"])["actuator-work"]
+    assert np.array_equal(together[1], path["actuator-work"])
+    still: Any = simulation(aspic.load("cube-plane"), "cpu").run(0.1, record="actuator-work")
+    assert not still["actuator-work"].any()
+
+
 def test_instances_of_a_batch_have_inputs_of_their_own(robot: aspic.Scene) -> None:
     robot.add_actuator("grow", material="muscle", amplitude=0.2, signal="input")
     batch = aspic.Batch(robot, count=3)

@@ -22,7 +22,7 @@ def same(a: Any, b: Any) -> bool:
 
 
 def test_a_motion_has_everything_of_each_sample(scene: aspic.Scene, motion: aspic.Trajectory) -> None:
-    assert list(motion) == [n for n in _exports.MOTION if not n.startswith("ball")]
+    assert list(motion) == [n for n in _exports.MOTION if not n.startswith(("ball", "actuator"))]
     sim = aspic.Simulation(scene, "cpu")
     springs, ends = sim.springs, motion.model["model.springs"]
     assert same(springs.ends, ends) and motion.scene is not None and motion.scene.toml == scene.toml
@@ -67,6 +67,15 @@ def test_the_library_writes_what_is_recorded(scene: aspic.Scene, precision: Any)
     assert back.scene is not None and back.scene.toml == sim.scene.toml
     assert all(same(back.model[name], motion.model[name]) for name in motion.model)
     assert same(back["energy"].elastic, motion["energy"].elastic)
+
+
+def test_the_work_of_actuators_is_part_of_a_motion() -> None:
+    motion = aspic.Simulation("worm", "cpu").run(0.2, every=0.02, record=["motion"])
+    aspic.Simulation("worm", "cpu").export("run.npz", 0.2)
+    motion.export("other.npz")
+    work = motion["actuator-work"]
+    assert list(motion)[-1] == "actuator-work" and work.shape == (11,) and work[0] == 0 and work[-1] > 0
+    assert all(same(np.load(name)["actuator-work"], work) for name in ("run.npz", "other.npz"))
 
 
 def test_pulls_count_in_what_a_simulation_exports(scene: aspic.Scene) -> None:

@@ -68,23 +68,26 @@ Measures measure(const Model& model, const State& state, const Inputs& inputs) {
   return m;
 }
 
-double actuator_work(const Model& model, const State& from, const State& to, const Inputs& inputs) {
-  assert(check_sizes(model, from) && check_sizes(model, to));
-  if (model.actuation.empty()) return 0.0;
-  const std::vector<double> before = rest_lengths(model, from.step, 0.0, inputs.channels),
-                            after = rest_lengths(model, from.step, 1.0, inputs.channels);
-  double work = 0.0;
+std::optional<double> ActuatorWork::add(const Model& model, const State& state, const Inputs& inputs) {
+  assert(check_sizes(model, state));
+  if (model.actuation.empty()) return std::nullopt;
+  const std::vector<double> r = rest_lengths(model, state.step, 0.0, inputs.channels);
+  std::vector<double> pulls(r.size(), 0.0);
   for (const Spring& spring : springs_of(model)) {
     const SpringClass& c = model.spring_classes[spring.spring_class];
-    const double r0 = before[spring.spring_class], r1 = after[spring.spring_class];
-    if (r0 == r1) continue;
-    const auto stretch = [&](const State& state, double r) {
-      const double s = length(state.position[spring.a] - state.position[spring.b]) - r;
-      return c.cord && s < 0.0 ? 0.0 : s;
-    };
-    work -= 0.5 * c.stiffness * (stretch(from, r0) + stretch(to, r1)) * (r1 - r0);
+    const double stretch =
+        length(state.position[spring.a] - state.position[spring.b]) - r[spring.spring_class];
+    if (!(c.cord && stretch < 0.0)) pulls[spring.spring_class] += c.stiffness * stretch;
   }
-  return work;
+  std::vector<Load> now;
+  now.reserve(model.actuation.classes.size());
+  for (const ActuatedClass& of : model.actuation.classes)
+    now.push_back({r[of.spring_class], pulls[of.spring_class]});
+  // A change of phases may have made other classes.
+  for (std::size_t n = 0; before_.size() == now.size() && n < now.size(); ++n)
+    sum_ -= 0.5 * (before_[n].pull + now[n].pull) * (now[n].length - before_[n].length);
+  before_ = std::move(now);
+  return sum_;
 }
 
 double largest_actuation_energy(const Model& model) {

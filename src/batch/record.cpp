@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "aspic/analysis.h"
 #include "base/memory.h"
 #include "base/result.h"
 #include "model/model.h"
@@ -33,8 +32,8 @@ std::vector<double> times_of(double duration, double interval) {
 
 /// Bytes of a record, in double precision: there may be too many to count.
 double bytes_of(double instances, double rows, std::size_t particles, const BatchQuantities& quantities) {
-  const int numbers =
-      1 + (quantities.centre_of_mass ? 3 : 0) + (quantities.momentum ? 3 : 0) + (quantities.energies ? 3 : 0);
+  const int numbers = 1 + (quantities.centre_of_mass ? 3 : 0) + (quantities.momentum ? 3 : 0) +
+                      (quantities.energies ? 3 : 0) + (quantities.actuator_work ? 1 : 0);
   return instances * rows * (8.0 * numbers + 12.0 * static_cast<double>(particles)) + 8.0 * rows;
 }
 
@@ -94,6 +93,10 @@ Result<Recording> Recording::plan(const std::vector<SharedModel>& models, double
     if (quantities.centre_of_mass) record.centre_of_mass.resize(3 * rows);
     if (quantities.momentum) record.momentum.resize(3 * rows);
     if (quantities.energies) record.energy.resize(3 * rows);
+    if (quantities.actuator_work) {
+      record.actuator_work.resize(rows);
+      plan.works_.resize(record.instances);
+    }
     record.positions.resize(3 * rows * record.particles);
     record.diverged.resize(record.instances);
     record.hash.resize(record.instances);
@@ -142,7 +145,9 @@ void Recording::write(const Unit& unit, std::size_t slot, std::size_t instance, 
         view[0]);
   }
   const bool last = row + 1 == record_.times;
-  if (!last && !quantities_.centre_of_mass && !quantities_.momentum && !quantities_.energies) return;
+  if (!last && !quantities_.centre_of_mass && !quantities_.momentum && !quantities_.energies &&
+      !quantities_.actuator_work)
+    return;
   State state;
   state.precision = Precision::single;
   state.step = unit.step(slot);
@@ -159,6 +164,8 @@ void Recording::write(const Unit& unit, std::size_t slot, std::size_t instance, 
       put(record_.momentum, figures.momentum.x, figures.momentum.y, figures.momentum.z);
     if (quantities_.energies) put(record_.energy, figures.kinetic, figures.elastic, figures.gravitational);
   }
+  if (quantities_.actuator_work)
+    record_.actuator_work[at] = works_[instance].add(*model, state, unit.inputs(slot)).value_or(0.0);
   if (!last) return;
   const auto divergence = unit.divergence(slot);
   record_.diverged[instance] = divergence ? divergence->step : 0;

@@ -314,11 +314,12 @@ Status execute_comparison(const RunOptions& options) {
   if (page) ASPIC_CHECK(page->finish(variants));
   // Pictures last: an encoder may keep a run waiting.
   for (const auto& m : variants) {
-    const Outcome& outcome = *m->outcome;
+    Outcome& outcome = *m->outcome;
     (void)m->files.finish({.model = *m->model,
                            .state = outcome.state,
                            .solves = outcome.solves.value_or(SolveStatistics{}),
                            .inputs = &m->headless->solver().inputs()});
+    outcome.actuator_work = m->files.actuator_work();
   }
   if (recorder && pictured_all) pictured_all = recorder->finish();
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};

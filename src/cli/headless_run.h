@@ -22,6 +22,7 @@ struct Outcome {
   std::uint64_t first_step = 0, last_step = 0;  ///< of this run; last: as planned
   std::optional<Divergence> divergence;
   std::optional<SolveStatistics> solves;  ///< implicit Euler only
+  std::optional<double> actuator_work;    ///< over the rows of the series, where there is one [J]
   Status pictured;                        ///< whether the pictures were completed
   bool interrupted = false;
   double wall_seconds = 0.0;

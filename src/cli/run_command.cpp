@@ -215,6 +215,7 @@ Status execute(const RunOptions& options) {
                       .solves = outcome.solves.value_or(SolveStatistics{}),
                       .divergence = outcome.divergence ? &*outcome.divergence : nullptr,
                       .inputs = &backend.solver->inputs()});
+  outcome.actuator_work = files.actuator_work();
   if (recorder) finish_pictures(*recorder, *backend.solver, outcome);
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
   if (!outcome.pictured && lost.empty()) lost.push_back(outcome.pictured.error());

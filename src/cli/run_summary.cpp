@@ -46,6 +46,7 @@ Json to_json(const RunReport& run) {
                    {"gravitational", m.gravitational},
                    {"total", m.total()}};
   if (m.contact) energies["contact"] = *m.contact;
+  if (outcome.actuator_work) energies["actuator_work"] = *outcome.actuator_work;
   return {
       {"scene", scene.name},
       {"backend", backend.row->name},
@@ -98,6 +99,8 @@ std::string to_text(const RunReport& run) {
       "energy       kinetic {:.6g} J, elastic {:.6g} J{}, gravitational {:.6g} J, total {:.6g} J\n",
       m.kinetic, m.elastic, m.contact ? fmt::format(" ({:.3g} J of contact)", *m.contact) : "",
       m.gravitational, m.total());
+  if (outcome.actuator_work)
+    text += fmt::format("actuators    did {:.6g} J, by the rows of the series\n", *outcome.actuator_work);
   text += fmt::format("extremes     fastest {:.6g} m/s, lowest y = {:.6g} m\n", m.max_speed, m.min_height);
   if (outcome.solves) {
     const SolveStatistics& s = *outcome.solves;

@@ -159,7 +159,7 @@ void add_state(Columns& columns, const Sample& sample) {
   columns.add("tension", {q.tension.size()}, as_type<T>(q.tension));
 }
 
-void add_sample(Columns& columns, const Sample& sample) {
+void add_sample(Columns& columns, const Sample& sample, ActuatorWork& actuators) {
   const State& state = sample.state;
   columns.add("steps", {}, std::vector{static_cast<std::int64_t>(state.step)});
   columns.add("time", {}, std::vector{static_cast<double>(state.step) * sample.model.simulation.timestep});
@@ -170,6 +170,8 @@ void add_sample(Columns& columns, const Sample& sample) {
   columns.add("energy.elastic", {}, std::vector{m.elastic});
   columns.add("energy.gravitational", {}, std::vector{m.gravitational});
   columns.add("momentum", {3}, std::vector{m.momentum.x, m.momentum.y, m.momentum.z});
+  if (const auto work = actuators.add(sample.model, state, inputs_of(sample)))
+    columns.add("actuator-work", {}, std::vector{*work});
 }
 
 /// Which body each particle is of, by global index.
@@ -266,7 +268,7 @@ class NpzSeries final : public MotionSink {
 
  private:
   Status add(const Sample& sample) override {
-    add_sample(columns_, sample);
+    add_sample(columns_, sample, actuators_);
     return columns_.end_sample();
   }
   Status complete(const Sample& last) override {
@@ -282,6 +284,7 @@ class NpzSeries final : public MotionSink {
 
   AtomicFile file_;
   Columns columns_;
+  ActuatorWork actuators_;
   std::string scene_;
 };
 

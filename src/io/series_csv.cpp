@@ -11,14 +11,16 @@ Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite ove
   return SeriesWriter(std::move(file), solves);
 }
 
-Status SeriesWriter::write_header(bool contact) {
+Status SeriesWriter::write_header(bool contact, bool work) {
   has_contact_ = contact;
-  return file_.write(fmt::format("{}{}{}\n", series_csv_header, has_solves_ ? series_csv_solve_header : "",
-                                 contact ? series_csv_contact_header : ""));
+  has_work_ = work;
+  return file_.write(fmt::format("{}{}{}{}\n", series_csv_header, has_solves_ ? series_csv_solve_header : "",
+                                 contact ? series_csv_contact_header : "",
+                                 work ? series_csv_work_header : ""));
 }
 
 Status SeriesWriter::finish() {
-  if (!has_row_) ASPIC_CHECK(write_header(false));
+  if (!has_row_) ASPIC_CHECK(write_header(false, false));
   return file_.commit();
 }
 
@@ -26,16 +28,20 @@ Status SeriesWriter::add(const Sample& sample) {
   const std::uint64_t step = sample.state.step;
   if (has_row_ && last_step_ == step) return {};
   const double time = static_cast<double>(step) * sample.model.simulation.timestep;
-  return add(step, time, measure(sample.model, sample.state, inputs_of(sample)), sample.solves);
+  const Inputs& inputs = inputs_of(sample);
+  return add(step, time, measure(sample.model, sample.state, inputs), sample.solves,
+             work_.add(sample.model, sample.state, inputs));
 }
 
-Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, const SolveStatistics& solves) {
+Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, const SolveStatistics& solves,
+                         std::optional<double> work) {
   if (const auto bad = first_not_finite(m)) {
     return fail(ErrorCode::diverged, "{}: {} of step {} is not a finite number.", file_.path(), *bad, step);
   }
-  if (!has_row_) ASPIC_CHECK(write_header(m.contact.has_value()));
+  if (!has_row_) ASPIC_CHECK(write_header(m.contact.has_value(), work.has_value()));
   has_row_ = true;
   last_step_ = step;
+  last_work_ = work;
   std::string row =
       fmt::format("{},{},{},{},{},{},{},{},{},{},{}", step, time, m.kinetic, m.elastic, m.gravitational,
                   m.total(), m.momentum.x, m.momentum.y, m.momentum.z, m.max_speed, m.min_height);
@@ -47,6 +53,7 @@ Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, con
     before_ = solves;
   }
   if (has_contact_) row += fmt::format(",{}", m.contact.value_or(0.0));
+  if (has_work_) row += fmt::format(",{}", work.value_or(0.0));
   return file_.write(row + "\n");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // Energies, momentum and extremes over time as a table.
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,19 +25,26 @@ inline constexpr std::string_view series_csv_solve_header =
 /// What follows these in a model whose bodies can touch: of the elastic energy, that of pushes between them.
 inline constexpr std::string_view series_csv_contact_header = ",contact";
 
+/// And in one with actuators: their work since the first row.
+inline constexpr std::string_view series_csv_work_header = ",actuator_work";
+
 /// Writes rows during a run; the file appears when finish() succeeds.
 class SeriesWriter {
  public:
   /// Opens the file (AtomicFile::create). The header comes with the first row, with the columns of solves if
-  /// `solves`, and that of contact if the row has it.
+  /// `solves`, and those of contact and of actuators if the row has them.
   static Result<SeriesWriter> create(const std::string& path, Overwrite overwrite, bool solves = false);
 
   /// Appends the row of a state unless the last row was of the same step; time is step · h [s]. Its
   /// statistics of solves are read only where the file has their columns. Errors: io from the file;
   /// diverged if a figure is not finite.
   Status add(const Sample& sample);
-  /// The same with the measurements of a step, at `time` [s].
-  Status add(std::uint64_t step, double time, const Measures& measures, const SolveStatistics& solves = {});
+  /// The same with the measurements of a step, at `time` [s]; `work`: of actuators, ActuatorWork::add().
+  Status add(std::uint64_t step, double time, const Measures& measures, const SolveStatistics& solves = {},
+             std::optional<double> work = {});
+
+  /// That of the last row.
+  std::optional<double> work() const { return last_work_; }
 
   /// Completes the file with the rows so far.
   Status finish();
@@ -44,10 +52,12 @@ class SeriesWriter {
  private:
   SeriesWriter(AtomicFile file, bool solves) : file_(std::move(file)), has_solves_(solves) {}
   AtomicFile file_;
-  Status write_header(bool contact);
+  Status write_header(bool contact, bool work);
 
-  bool has_solves_ = false, has_contact_ = false;
+  bool has_solves_ = false, has_contact_ = false, has_work_ = false;
   SolveStatistics before_;  // as of the last row
+  ActuatorWork work_;
+  std::optional<double> last_work_;
   bool has_row_ = false;
   std::uint64_t last_step_ = 0;
 };

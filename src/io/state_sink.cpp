@@ -102,6 +102,7 @@ class Series final : public StateSink {
     const Status added = take(last);
     return added ? writer_.finish() : added;
   }
+  std::optional<double> actuator_work() const override { return writer_.work(); }
 
  private:
   SeriesWriter writer_;

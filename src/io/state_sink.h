@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,8 @@ class StateSink {
   virtual Status take(const Sample& sample) = 0;
   /// Takes the last state, which take() may have seen already, and completes the output. Errors as take().
   virtual Status finish(const Sample& last) = 0;
+  /// The work of actuators up to the last state that it took [J], where it adds that up.
+  virtual std::optional<double> actuator_work() const { return std::nullopt; }
 
   /// As the user gave it; with a * in place of the step where it is one of many files.
   const std::string& path() const { return path_; }

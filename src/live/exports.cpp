@@ -79,9 +79,10 @@ ASPIC_EXPORT(advance) int advance(double steps) {
 ASPIC_EXPORT(take) int take() {
   if (const Status taken = run->take(); !taken) return done(taken);
   const Measures& m = run->measures();
+  const std::string work = run->work() ? fmt::format(R"("work":{},)", *run->work()) : "";
   said = fmt::format(
-      R"({{"step":{},"hash":"{}","kinetic":{},"elastic":{},"gravitational":{},"changes":[{}]}})", run->step(),
-      run->hash(), m.kinetic, m.elastic, m.gravitational, fmt::join(run->changes(), ","));
+      R"({{"step":{},"hash":"{}","kinetic":{},"elastic":{},"gravitational":{},{}"changes":[{}]}})",
+      run->step(), run->hash(), m.kinetic, m.elastic, m.gravitational, work, fmt::join(run->changes(), ","));
   return 0;
 }
 ASPIC_EXPORT(numbers) float* numbers() {

@@ -44,6 +44,7 @@ Status LiveRun::change(std::string_view key_lines) {
                 "The number of particles and balls cannot change while a run goes on.");
   scene_ = std::move(scene);
   solver_ = std::move(solver);
+  (void)actuators_.add(model(), state);
   return {};
 }
 
@@ -52,6 +53,7 @@ Status LiveRun::take() {
   ASPIC_TRY(step_, solver_->read_into(places()));
   hash_ = state_hash_text(state);
   measures_ = measure(model(), state);
+  work_ = actuators_.add(model(), state);
   changes_.clear();
   RestLengths lengths(model());
   for (const double r : lengths.at(step_, 0.0, {})) {
@@ -68,7 +70,11 @@ Status LiveRun::load(std::uint64_t step) {
     const auto& field = std::get<Strided<float>>(from[n]);
     view[n] = Strided<const float>{field.data, field.count};
   }
-  return solver_->load(view, step);
+  ASPIC_CHECK(solver_->load(view, step));
+  ASPIC_TRY(const State state, solver_->state());
+  actuators_ = {};
+  (void)actuators_.add(model(), state);
+  return {};
 }
 
 StateView LiveRun::places() {

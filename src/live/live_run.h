@@ -39,6 +39,9 @@ class LiveRun {
   const Measures& measures() const { return measures_; }
   /// r/r₀ − 1 by Actuation::classes, at that step.
   const std::vector<float>& changes() const { return changes_; }
+  /// The work of actuators since the first take() or load(), as ActuatorWork adds it up; a change() of their
+  /// constants does work too. Nothing without actuators.
+  std::optional<double> work() const { return work_; }
 
   /// Room for a state: the fields of state_fields one after the other, three numbers a vector.
   std::span<float> numbers() { return numbers_; }
@@ -58,6 +61,8 @@ class LiveRun {
   std::string hash_;
   Measures measures_;
   std::vector<float> changes_;
+  ActuatorWork actuators_;
+  std::optional<double> work_;
 };
 
 }  // namespace aspic::live

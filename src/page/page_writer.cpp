@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "aspic/analysis.h"
 #include "aspic/version.h"
 #include "base/base64.h"
 #include "base/printable.h"
@@ -117,6 +116,7 @@ Status PageWriter::begin(const PageSettings& settings, std::span<const PageRun> 
                        {},
                        {},
                        {},
+                       {},
                        {}});
     models_.push_back(&model);
   }
@@ -142,6 +142,7 @@ Status PageWriter::add(std::span<const State* const> states, const Inputs& input
     tracks.kinetic.push_back(m.kinetic);
     tracks.elastic.push_back(m.elastic);
     tracks.gravitational.push_back(m.gravitational);
+    if (const auto work = tracks.actuators.add(*models_[i], state, inputs)) tracks.work.push_back(*work);
     tracks.steps.push_back(state.step);
     tracks.particles.append(state.position, bytes);
     tracks.balls.append(state.ball_position, bytes);
@@ -183,6 +184,7 @@ Status PageWriter::finish(std::span<const State* const> states,
       end["kinetic"] = rounded_list(tracks.kinetic);
       end["elastic"] = rounded_list(tracks.elastic);
       end["gravitational"] = rounded_list(tracks.gravitational);
+      if (!tracks.work.empty()) end["work"] = rounded_list(tracks.work);
     } else {
       end["hashes"] = tracks.hashes;
       end["starts"] = starts_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "aspic/analysis.h"
 #include "aspic/scene.h"
 #include "aspic/solver.h"
 #include "base/result.h"
@@ -70,9 +71,10 @@ class PageWriter {
  private:
   struct Tracks {
     Track particles, balls, spins, changes;
-    std::vector<double> kinetic, elastic, gravitational;  // [J], by picture
+    std::vector<double> kinetic, elastic, gravitational, work;  // [J], by picture; of actuators where it has
     std::vector<std::uint64_t> steps;
     std::vector<std::string> hashes = {};  // of a live page
+    ActuatorWork actuators = {};
   };
   Status add_live(const State& state);
   PageWriter(AtomicFile file, Deflater deflater) : file_(std::move(file)), deflater_(std::move(deflater)) {}

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/result.h"
@@ -59,6 +60,7 @@ struct RunFiles::Parts {
   std::vector<std::unique_ptr<FrameSink>> frame_sinks;
   std::vector<std::string> written;
   std::vector<Error> failures;
+  std::optional<double> actuator_work;
   bool begun = false;
 };
 
@@ -73,6 +75,10 @@ const std::vector<Error>& RunFiles::failures() const {
 
 const std::vector<std::string>& RunFiles::written() const {
   return parts_->written;
+}
+
+std::optional<double> RunFiles::actuator_work() const {
+  return parts_->actuator_work;
 }
 
 std::vector<std::unique_ptr<FrameSink>> RunFiles::take_frame_sinks() {
@@ -149,6 +155,7 @@ Status RunFiles::finish(const Sample& last) {
       parts_->note_failure(output, finished.error());
     else
       parts_->written.push_back(output.sink->path());
+    if (const auto work = output.sink->actuator_work()) parts_->actuator_work = work;
     output.sink.reset();
   }
   parts_->outputs.clear();

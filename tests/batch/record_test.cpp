@@ -9,6 +9,7 @@
 #include "aspic/analysis.h"
 #include "aspic/batch.h"
 #include "batch/instances.h"
+#include "support/actuated.h"
 
 namespace aspic {
 namespace {
@@ -72,12 +73,36 @@ TEST(BatchRecord, HasTheFiguresOfEachRunAlone) {
   EXPECT_EQ(record.energy[3 * (33 * 5 + 3)], record.energy[3 * (33 * 5 + 4)]);
 }
 
+TEST(BatchRecord, HasTheWorkOfActuators) {
+  const std::vector<SharedModel> models = {
+      test::shared_model(test::actuated(Integrator::symplectic_euler, ContactModel::coulomb)),
+      test::shared_model(test::cube_on_plane(3))};
+  Batch batch = take(Batch::create(models, {1}));
+  Inputs inputs;
+  inputs.channels = {0.6};
+  ASSERT_TRUE(batch.set_inputs(0, inputs).ok());
+  const BatchRecord record = take(batch.run(0.09, 0.03, {.centre_of_mass = false, .actuator_work = true}));
+  ASSERT_EQ(record.actuator_work.size(), 8u);
+  const auto solver = test::alone(models[0]);
+  ASSERT_TRUE(solver->set_inputs(inputs).ok());
+  ActuatorWork work;
+  for (std::size_t n = 0; n < 4; ++n) {
+    const State state = take(solver->state());
+    EXPECT_EQ(record.actuator_work[n], work.add(*models[0], state, solver->inputs()));
+    EXPECT_EQ(record.actuator_work[4 + n], 0.0);
+    ASSERT_TRUE(
+        solver->advance(static_cast<std::uint64_t>(0.03 / models[0]->simulation.timestep + 0.5)).ok());
+  }
+  EXPECT_NE(record.actuator_work[3], 0.0);
+}
+
 TEST(BatchRecord, HasWhatIsAskedFor) {
   Batch batch = take(Batch::create(models_of(2), {1}));
   const BatchRecord record = take(batch.run(0.03, 0.01, {.centre_of_mass = false, .momentum = true}));
   EXPECT_EQ(record.times, 4u);
   EXPECT_EQ(record.momentum.size(), 2u * 4 * 3);
-  for (const auto* const other : {&record.centre_of_mass, &record.energy}) EXPECT_TRUE(other->empty());
+  for (const auto* const other : {&record.centre_of_mass, &record.energy, &record.actuator_work})
+    EXPECT_TRUE(other->empty());
   EXPECT_TRUE(record.positions.empty());
   const BatchRecord again = take(batch.run(0.0, 1.0));  // from where it is
   EXPECT_EQ(again.times, 1u);

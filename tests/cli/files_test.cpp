@@ -60,6 +60,25 @@ TEST(Files, SeriesHasStartEveryNthAndFinalStep) {
   EXPECT_THAT(rows[4], testing::StartsWith("25,0.025,"));
 }
 
+// The summary has the work of actuators as the series books it; without a series nobody looks on the way.
+TEST(Files, WorkOfActuatorsIsThatOfTheSeries) {
+  const test::TemporaryDirectory dir;
+  const Words words = {"run", "worm", "--backend", "cpu", "--steps", "250", "--json"};
+  Words with = words;
+  with.insert(with.end(), {"--series", dir.file("e.csv"), "--every", "20"});
+  const auto booked = aspic(with), alone = aspic(words);
+  ASSERT_EQ(booked.exit_code, 0) << booked.err;
+  const auto rows = test::lines(dir.read("e.csv"));
+  EXPECT_EQ(rows[0].substr(rows[0].rfind(',')), series_csv_work_header);
+  const std::string work = json_member(booked.out, "actuator_work");
+  EXPECT_GT(std::stod(work), 0.0);
+  EXPECT_EQ(std::stod(rows.back().substr(rows.back().rfind(',') + 1)), std::stod(work));
+  EXPECT_THAT(alone.out, testing::Not(HasSubstr("actuator_work")));
+  std::erase(with, "--json");
+  with.emplace_back("--force");
+  EXPECT_THAT(aspic(with).out, HasSubstr("actuators    did "));
+}
+
 TEST(Files, ExistingFilesAreKeptWithoutForce) {
   for (const char* option : {"--state", "--series", "--checkpoint"}) {
     const test::TemporaryDirectory dir;

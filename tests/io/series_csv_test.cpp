@@ -108,6 +108,31 @@ TEST(SeriesCsv, EnergyOfContactFollowsWhereBodiesCanTouch) {
                                    ",contact\n0,0,0,7,0,7,0,0,0,0,0,0,0,0,0,0,0,2.5\n");
 }
 
+// In a model with actuators their work comes last, from the first row on.
+TEST(SeriesCsv, WorkOfActuatorsFollowsWhereThereAreAny) {
+  const test::TemporaryDirectory dir;
+  const Model model = test::build(test::actuated(Integrator::symplectic_euler, ContactModel::coulomb));
+  State state = initial_state(model, Precision::double_);
+  Inputs inputs;
+  auto series = SeriesWriter::create(dir.file("e.csv"), Overwrite::refuse);
+  ASSERT_TRUE(series.ok());
+  EXPECT_EQ(series->work(), std::nullopt);
+  ActuatorWork work;
+  std::string last;
+  for (const double channel : {0.0, 0.8, -0.3}) {
+    inputs.channels = {channel};
+    ASSERT_TRUE(series->add({.model = model, .state = state, .inputs = &inputs}).ok());
+    EXPECT_EQ(series->work(), work.add(model, state, inputs));
+    last = fmt::format(",{}", *series->work());
+    state.step += 10;
+  }
+  ASSERT_TRUE(series->finish().ok());
+  const std::string text = dir.read("e.csv");
+  EXPECT_THAT(text, testing::StartsWith(std::string(series_csv_header) + ",contact,actuator_work\n0,"));
+  EXPECT_THAT(text, testing::EndsWith(last + "\n"));
+  EXPECT_NE(last, ",0");
+}
+
 TEST(SeriesCsv, HasItsHeaderWithoutARowToo) {
   const test::TemporaryDirectory dir;
   auto series = SeriesWriter::create(dir.file("e.csv"), Overwrite::refuse);

@@ -65,12 +65,20 @@ TEST(LiveRun, KnowsHowFarRestLengthsAreChanged) {
   }
   EXPECT_GT(std::ranges::max(run.changes()), 0.01f);
   EXPECT_LT(std::ranges::min(run.changes()), -0.01f);
-  // As a reader changes them.
+  // Since the start their work, of which going back leaves none.
+  EXPECT_EQ(run.work(), 0.0);
+  ASSERT_TRUE(run.advance(100).ok() && run.take().ok());
+  const std::optional<double> work = run.work();
+  ASSERT_TRUE(work && *work != 0.0);
+  ASSERT_TRUE(run.load(300).ok() && run.take().ok());
+  EXPECT_EQ(run.work(), 0.0);
+  // As a reader changes them, which works on the springs, too.
   ASSERT_TRUE(run.change("actuator[0].amplitude=0.0\n").ok() && run.take().ok());
   EXPECT_THAT(run.changes(), testing::Each(0.0f));
+  EXPECT_NE(run.work(), 0.0);
   // Of a run without actuators there are none.
   LiveRun plain = run_of(scene_of());
-  EXPECT_TRUE(plain.take().ok() && plain.changes().empty());
+  EXPECT_TRUE(plain.take().ok() && plain.changes().empty() && !plain.work());
 }
 
 TEST(LiveRun, GoesOnWithOtherValuesFromWhereItIs) {

@@ -87,6 +87,15 @@ TEST_F(PageTest, HoldsRestLengthsOfActuatedSprings) {
   EXPECT_GT(page.facts["runs"][0]["actuated"].size(), 10u);
   EXPECT_TRUE(page.facts["runs"][0]["ranges"].contains("actuation"));
   EXPECT_FALSE(page.pictures.back()[0].changes.empty());
+  // What actuators did so far, to six digits, picture by picture.
+  ActuatorWork work;
+  const auto& steps = page.ends[0]["steps"];
+  ASSERT_EQ(page.ends[0]["work"].size(), steps.size());
+  for (std::size_t f = 0; f < steps.size(); ++f) {
+    const double done = *work.add(run.model, run.states.at(steps[f]));
+    EXPECT_NEAR(page.ends[0]["work"][f].get<double>(), done, 5e-6 * std::abs(done));
+  }
+  EXPECT_GT(page.ends[0]["work"].back().get<double>(), 0.0);
 }
 
 TEST_F(PageTest, HoldsEveryPictureOfAFilmWithinHalfAQuantum) {

@@ -2,16 +2,17 @@
 // effect at the moment that is shown.
 class LiveRun extends Run {
   constructor(facts, end) {
-    super(facts, { hash: "", precision: end.precision, steps: [], kinetic: [], elastic: [], gravitational: [] });
-    Object.assign(this, { states: [], hashes: [] });  // all numbers of each picture, and their hash
+    super(facts, { hash: "", precision: end.precision, steps: [], kinetic: [], elastic: [], gravitational: [], work: [] });
+    Object.assign(this, { states: [], hashes: [], before: 0 });  // all numbers of each picture, their hash; work before the last change
   }
 
-  take({ step, hash, numbers, kinetic, elastic, gravitational, changes }) {
+  take({ step, hash, numbers, kinetic, elastic, gravitational, work, changes }) {
     const { end, facts } = this, particles = facts.particles, balls = facts.balls.length, ballsFrom = 6 * particles;
     end.hash = hash;
     end.steps.push(step);
     this.hashes.push(hash);
     for (const [list, value] of [[end.kinetic, kinetic], [end.elastic, elastic], [end.gravitational, gravitational]]) list.push(value);
+    if (work !== undefined) end.work.push(this.before + work);
     this.times.push(step * facts.timestep);
     this.states.push(numbers);
     this.positions.push(numbers.subarray(0, 3 * particles));
@@ -24,7 +25,8 @@ class LiveRun extends Run {
   keep(count) {
     const { end } = this;
     delete end.diverged;
-    for (const list of [end.steps, end.kinetic, end.elastic, end.gravitational, this.times, this.states, this.hashes, this.positions, this.balls, this.turns, this.changes])
+    this.before = end.work[count - 1] ?? 0;
+    for (const list of [end.steps, end.kinetic, end.elastic, end.gravitational, end.work, this.times, this.states, this.hashes, this.positions, this.balls, this.turns, this.changes])
       list.length = Math.min(list.length, count);
   }
 }

@@ -301,6 +301,8 @@ class Page {
     const entries = this.several
       ? recording.runs.map((run, i) => [run.facts.name, energies.reduce((sum, e) => sum + plot.at(i, place)[e], 0), runColours[i]])
       : [...energies].reverse().map((e) => [e, plot.at(0, place)[e], `var(--${e})`]);
+    const work = this.several ? undefined : plot.work(place);
+    if (work !== undefined) entries.push(["work of actuators", work, "var(--soft)"]);
     $("energies").replaceChildren(...entries.map(([name, joules, colour]) => {
       const item = document.createElement("li");
       item.style.setProperty("--run", colour);

@@ -39,6 +39,12 @@ class Plot {
     return Object.fromEntries(energies.map((e) => [e, row[e][picture] + share * (row[e][next] - row[e][picture])]));
   }
 
+  // The work of one run's actuators so far, between its pictures; undefined without any.
+  work({ picture, share }) {
+    const work = this.recording.runs[0].end.work ?? [], next = Math.min(picture + 1, work.length - 1);
+    return work.length > 0 ? work[picture] + share * (work[next] - work[picture]) : undefined;
+  }
+
   draw(time) {
     this.count();
     const { canvas } = this, ratio = window.devicePixelRatio || 1, style = getComputedStyle(canvas);
