@@ -79,7 +79,8 @@ EXAMPLES = {
     ),
     "evolve.py": (
         ["--robots", "12", "--generations", "3", "--seconds", "0.4", "--shape", "3", "2", "2"],
-        r"generation 3: the best \d.\d+ m.*\nthe winner crawls \d.\d+ m in 0.4 s, hash [0-9a-f]{16}\n",
+        r"generation 3: the best 0.019 m.*\nthe winner crawls 0.019 m in 0.4 s, hash 473f6482225bf98f\n"
+        r"with half the time step 0.018 m\n",
     ),
     "population.py": (
         ["--cubes", "20", "--particles", "3", "--seconds", "1"],
