@@ -45,7 +45,7 @@ ASPIC_API Measures measure(const Model& model, const State& state, const Inputs&
 /// from each state to the next, with the rest lengths that measure() takes. However many steps lie between
 /// two states, it is the change of the elastic energy less the work of particles on springs, ∫ Σ k(L − r) dL
 /// by the same rule, and exact where lengths hold still; else its error is of second order in the time
-/// between.
+/// between. Calls may come from any thread, one at a time.
 class ASPIC_API ActuatorWork {
  public:
   /// The work from the first state that was added to this one, the next of the run; negative where springs
