@@ -15,8 +15,8 @@
 namespace aspic::test {
 namespace {
 
-constexpr std::array all_bodies = {Bodies::cube, Bodies::listed_cube, Bodies::cloth, Bodies::cube_and_balls,
-                                   Bodies::all,  Bodies::box,         Bodies::voxels};
+constexpr std::array all_bodies = {Bodies::cube, Bodies::listed_cube, Bodies::cloth,  Bodies::cube_and_balls,
+                                   Bodies::all,  Bodies::box,         Bodies::voxels, Bodies::robot};
 constexpr std::array all_grounds = {Ground::bouncing, Ground::holding, Ground::moving};
 /// Particles that an invocation of the lattice kernel takes: as software likes it, and as hardware does.
 constexpr std::array<std::uint32_t, 2> all_runs = {0, 1};
@@ -35,6 +35,8 @@ std::string_view word_of(Bodies bodies) {
       return "a box";
     case Bodies::voxels:
       return "a body of cells";
+    case Bodies::robot:
+      return "a robot";
     case Bodies::all:
       break;
   }
@@ -106,6 +108,28 @@ void add_voxels(ModelSettings& settings, const Vec3& position) {
   voxels.pieces = Pieces::all;
 }
 
+/// A wave of one material's cells, springs of these and others that a table pulls along an axis, and cells of
+/// the other material that wait for an input.
+void add_actuators(ModelSettings& settings) {
+  ActuatorSettings& wave = settings.actuators.emplace_back();
+  wave.select.materials = {"jelly"};
+  wave.volume_change = 0.4;
+  wave.frequency = 3.0;
+  wave.phase = {0.1, BodyAxis::x, 1.7, {}};
+  wave.ramp = 0.05;
+  ActuatorSettings& pull = settings.actuators.emplace_back();
+  pull.select.springs = {"structural", "bending"};
+  pull.axis = BodyAxis::y;
+  pull.amplitude = 0.15;
+  pull.signal = Signal::table;
+  pull.table = {{0.0, -0.5}, {0.3, 1.0}, {0.3, 0.0}, {1.0, -0.5}};
+  pull.frequency = 2.0;
+  ActuatorSettings& hand = settings.actuators.emplace_back();
+  hand.select.materials = {"fat"};
+  hand.amplitude = -0.2;
+  hand.signal = Signal::input;
+}
+
 void add_bodies(ModelSettings& settings, Bodies bodies, const Vec3& at) {
   switch (bodies) {
     case Bodies::cube:
@@ -127,6 +151,10 @@ void add_bodies(ModelSettings& settings, Bodies bodies, const Vec3& at) {
       break;
     case Bodies::voxels:
       add_voxels(settings, at);
+      break;
+    case Bodies::robot:
+      add_voxels(settings, at);
+      add_actuators(settings);
       break;
     case Bodies::all:
       settings.cubes = {cube(4, 1.6, at), cube(3, 1.0, at + Vec3{0.2, 1.6, 0.0})};
@@ -176,11 +204,13 @@ const std::vector<EqualityCase>& covering_cases() {
     };
     std::vector<EqualityCase> result;
     // Those with the bodies that were there before others come first, as the file of known hashes has them.
-    std::array without_boxes = sizes, without_voxels = sizes;
-    without_boxes[4] = static_cast<std::size_t>(Bodies::box);
-    without_voxels[4] = static_cast<std::size_t>(Bodies::voxels);
-    const auto before = cover_pairs(without_voxels, allowed, cover_pairs(without_boxes, allowed));
-    for (const CoveringRow& row : cover_pairs(sizes, allowed, before)) {
+    std::vector<CoveringRow> rows;
+    for (const Bodies later : {Bodies::box, Bodies::voxels, Bodies::robot}) {
+      std::array without = sizes;
+      without[4] = static_cast<std::size_t>(later);
+      rows = cover_pairs(without, allowed, std::move(rows));
+    }
+    for (const CoveringRow& row : cover_pairs(sizes, allowed, std::move(rows))) {
       result.push_back({all_integrators[row[0]], terrain_shapes[row[1]].value,
                         contact_models[row[2] % contacts].value, force_paths()[row[3]].path,
                         all_bodies[row[4]], all_grounds[row[2] / contacts], all_runs[row[5]]});

@@ -11,7 +11,7 @@
 namespace aspic::test {
 
 /// Bodies of a case. Together they have every kind of body_rows(), and springs in lattices and in lists.
-enum class Bodies { cube, listed_cube, cloth, cube_and_balls, all, box, voxels };
+enum class Bodies { cube, listed_cube, cloth, cube_and_balls, all, box, voxels, robot };
 
 /// What the terrain does to them.
 enum class Ground {
