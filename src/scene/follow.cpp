@@ -6,6 +6,7 @@
 #include <cassert>
 #include <charconv>
 
+#include "model/actuators.h"
 #include "model/bodies.h"
 
 namespace aspic {
@@ -41,9 +42,15 @@ std::optional<Element> element_of(std::string_view name) {
 }  // namespace
 
 std::optional<Followed> find_followed(const ModelSettings& settings, std::string_view name) {
-  const auto element = element_of(name);
-  if (!element) return std::nullopt;
-  const auto [key, index] = *element;
+  Element element;
+  if (const auto body = find_body(settings, name)) {
+    element = {body->row->list.key, static_cast<std::uint32_t>(body->index)};
+  } else if (const auto read = element_of(name)) {
+    element = *read;
+  } else {
+    return std::nullopt;
+  }
+  const auto [key, index] = element;
   if (key == ball_key)
     return index < predict_counts(settings).balls ? std::optional(Followed{true, index}) : std::nullopt;
   std::uint32_t first = 0;

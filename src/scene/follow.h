@@ -21,10 +21,11 @@ struct Followed {
 };
 
 /// `cube[0]` (or `cube`), `goal-net[1]`, `ball[2]`: an element of a list of bodies, or any ball, those of
-/// launchers counted after those of [[ball]]. Nothing if the scene has none of that name.
+/// launchers counted after those of [[ball]]; or a body's own name. Nothing if the scene has none of that
+/// name.
 std::optional<Followed> find_followed(const ModelSettings& settings, std::string_view name);
 
-/// Every name that find_followed() knows, of balls the first `most_balls`.
+/// Every body by its place in its list, and of balls the first `most_balls`.
 std::vector<std::string> followable(const ModelSettings& settings, std::uint64_t most_balls);
 
 /// The name that what is followed has once an element of a list of bodies or balls is removed; nothing if

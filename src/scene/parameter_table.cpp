@@ -161,7 +161,7 @@ Rows view_rows() {
   Parameter follow = absent("the camera stays where it is",
                             row("view.follow", FIELD(view.follow),
                                 "Body or ball that the camera moves along with from its start, such as "
-                                "\"cube[0]\" or \"ball[2]\"; \"none\" is as if absent."));
+                                "\"cube[0]\", \"ball[2]\" or a body's own name; \"none\" is as if absent."));
   follow.write = [](const Parameter&, Scene& scene, std::size_t, const Value& value) {
     const auto& name = std::get<std::string>(value);
     scene.view.follow = name == "none" ? std::nullopt : std::optional(name);

@@ -32,6 +32,17 @@ TEST(Followed, EveryNameIsFoundAndMeansItsOwnBody) {
     EXPECT_FALSE(find_followed(scene.model, wrong).has_value()) << wrong;
 }
 
+TEST(Followed, MayBeNamedAsItNamesItself) {
+  Scene scene = load_scene("worm").value();
+  EXPECT_EQ(scene.model.voxels[0].name, "worm");
+  scene.model.cubes.emplace_back();
+  EXPECT_EQ(find_followed(scene.model, "worm"), find_followed(scene.model, "voxels[0]"));
+  EXPECT_TRUE(find_followed(scene.model, "worm").has_value());
+  EXPECT_NE(find_followed(scene.model, "worm"), find_followed(scene.model, "cube[0]"));
+  scene.model.voxels[0].name.clear();
+  EXPECT_FALSE(find_followed(scene.model, "worm").has_value());
+}
+
 TEST(Followed, KeepsItsMeaningWhereElementsAreRemoved) {
   EXPECT_EQ(followed_without("cube[2]", "cube", 0), "cube[1]");
   EXPECT_EQ(followed_without("cube[2]", "cube", 2), std::nullopt);
