@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/printable.h"
+#include "model/actuators.h"
 #include "model/cube.h"
 #include "model/integrator.h"
 #include "model/model.h"
@@ -73,6 +74,42 @@ void add_springs(const ModelSettings& settings, std::vector<OverlayLine>& lines)
     for (const SpringsOfType& s : springs) lines.push_back({std::string(s.label), value(s)});
 }
 
+/// A name may be as long as it likes; the panel must not cover the picture.
+constexpr std::size_t most_of_author = 40, most_of_name = 20, most_of_a_kind = 3;
+
+/// Materials that cells of bodies are of, in file order.
+std::vector<const MaterialSettings*> materials_of_cells(const ModelSettings& settings) {
+  std::vector<const MaterialSettings*> used;
+  for (const MaterialSettings& material : settings.materials) {
+    const auto holds = [&](const VoxelsSettings& voxels) {
+      if (voxels.palette.empty()) return voxels.material.name == material.name;
+      return std::ranges::any_of(voxels.palette,
+                                 [&](const auto& entry) { return entry.second == material.name; });
+    };
+    if (std::ranges::any_of(settings.voxels, holds)) used.push_back(&material);
+  }
+  // One that has no name.
+  if (used.empty() && !settings.voxels.empty()) used.push_back(&settings.voxels.front().material);
+  if (used.size() > most_of_a_kind) used.resize(most_of_a_kind);
+  return used;
+}
+
+void add_cells(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
+  for (const MaterialSettings* const m : materials_of_cells(settings))
+    lines.push_back({m->name.empty() ? "cells" : excerpt(m->name, most_of_name),
+                     fmt::format("E {} Pa   ρ {} kg/m³   ζ {}", short_number(m->youngs_modulus),
+                                 short_number(m->density), short_number(m->damping_ratio))});
+}
+
+void add_actuators(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
+  for (std::size_t i = 0; i < std::min(settings.actuators.size(), most_of_a_kind); ++i) {
+    const ActuatorSettings& a = settings.actuators[i];
+    std::string value = fmt::format("a {}   {}", short_number(amplitude_of(a)), name_of(a.signal));
+    if (a.signal != Signal::input) value += fmt::format("   f {} Hz", short_number(a.frequency));
+    lines.push_back({excerpt(actuator_name(settings, i), most_of_name), value});
+  }
+}
+
 /// What terrains have in common, or from the least to the largest.
 template <class Value>
 std::string over_terrain(const std::vector<TerrainSettings>& terrain, Value value) {
@@ -111,9 +148,6 @@ void add_balls(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
                                         short_number(contact.spin ? contact.ball_friction : 0.0))});
 }
 
-/// A name may be as long as it likes; the panel must not cover the picture.
-constexpr std::size_t most_of_author = 40;
-
 }  // namespace
 
 std::string short_number(double value) {
@@ -137,6 +171,8 @@ std::vector<OverlayLine> overlay_lines(const Scene& scene, double time) {
   lines.push_back({"integrator", std::string(row_of(settings.simulation.integrator).title)});
   lines.push_back({"time step h", short_number(1000.0 * settings.simulation.timestep) + " ms"});
   add_springs(settings, lines);
+  add_cells(settings, lines);
+  add_actuators(settings, lines);
   if (!settings.cubes.empty()) {
     const CubeSettings& cube = settings.cubes.front();
     const std::string more =

@@ -98,6 +98,25 @@ TEST(Text, NetClothAndBalls) {
   EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "balls"), "23   e 1   μ 0");
 }
 
+TEST(Text, MaterialsOfCellsAndActuators) {
+  Scene scene;
+  ModelSettings& settings = scene.model;
+  settings.voxels.emplace_back().material = {500.0, 2e4, 0.4, ""};
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "cells"), "E 20000 Pa   ρ 500 kg/m³   ζ 0.4");
+  settings.materials = {{1000.0, 2e5, 0.3, "muscle"}, {900.0, 1e5, 0.5, "skin"}, {1.0, 1.0, 1.0, "unused"}};
+  settings.voxels[0].palette = {{"1", "skin"}, {"2", "muscle"}};
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "cells"), "(none)");
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "muscle"), "E 200000 Pa   ρ 1000 kg/m³   ζ 0.3");
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "skin"), "E 100000 Pa   ρ 900 kg/m³   ζ 0.5");
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "unused"), "(none)");
+  settings.actuators.resize(2);
+  settings.actuators[0].name = "wave";
+  settings.actuators[0].frequency = 1.5;
+  settings.actuators[1].signal = Signal::input;
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "wave"), "a 0.1   sine   f 1.5 Hz");
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "actuator[1]"), "a 0.1   input");
+}
+
 TEST(Text, NamesTheAuthorOnOneLine) {
   Scene scene;
   scene.author = "0356611";
@@ -122,7 +141,7 @@ TEST(Text, ReadsUtf8) {
 
 TEST(Font, HasEverySignOfTheOverlay) {
   const Font font(17);
-  for (const char32_t c : std::u32string(U"azAZ09°·–−≥%√²μ…"))
+  for (const char32_t c : std::u32string(U"azAZ09°·–−≥%√²³μρζ…"))
     EXPECT_NE(&font.glyph(c), &font.glyph(U'?')) << static_cast<unsigned>(c);
   EXPECT_EQ(&font.glyph(0x4e00), &font.glyph(U'?'));
 }
