@@ -12,7 +12,7 @@ numbers are in SI units.
 
 from . import _aspic
 from ._batch import Batch, Instance
-from ._body import Ball, Body
+from ._body import Ball, Body, Skin
 from ._devices import Device, devices
 from ._errors import (
     CheckError,
@@ -63,6 +63,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Simulation",
+    "Skin",
     "Springs",
     "State",
     "Table",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     import numpy as np
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from ._reading import Readable
     from ._state import Floats
 
-__all__ = ["Ball", "Body", "body_index"]
+__all__ = ["Ball", "Body", "Skin", "body_index"]
 
 
 def body_index(bodies: list[str], name: str, scene: _aspic.Scene) -> int | None:
@@ -26,6 +26,15 @@ def body_index(bodies: list[str], name: str, scene: _aspic.Scene) -> int | None:
         if own and name in (own, f"{body.partition('[')[0]}[{own}]"):
             return index
     return None
+
+
+class Skin(NamedTuple):
+    """The mesh that is drawn on a body of cells in place of their faces."""
+
+    vertices: NDArray[np.float64]
+    """(v, 3) [m], where the cells carry them."""
+    triangles: NDArray[np.uint32]
+    """(t, 3) indices into ``vertices``, anticlockwise from outside."""
 
 
 class Body:
@@ -105,6 +114,15 @@ class Body:
         """Squares of the surface, (m, 4) indices into ``positions``, anticlockwise from outside; none for nets."""
         faces = self._simulation._core.surface(self._index)
         return faces - faces.dtype.type(self._first)
+
+    @property
+    def skin(self) -> Skin | None:
+        """The mesh that the body was made of, moved along with its cells; None where it has none."""
+        corners, weights, triangles = self._simulation._core.mesh(self._index)
+        if len(triangles) == 0:
+            return None
+        at = self._simulation.positions[corners].astype("float64")
+        return Skin((weights[:, :, None] * at).sum(axis=1), triangles)
 
     def __len__(self) -> int:
         return self._count

@@ -84,6 +84,17 @@ def test_meshes_become_bodies_and_say_what_was_repaired(yard: aspic.Scene, own_f
     path = yard.add_mesh("hare", "rabbit", cells=8, height=0.4, material="fat", position=[0, 1, 0], pieces="largest")
     assert path == "voxels[hare]"
     assert yard["voxels[hare].size"] == pytest.approx(0.05) and yard["voxels[hare].skin"]
+    # The skin goes where the cells go.
+    sim = aspic.Simulation(yard, backend="reference")
+    skin = sim["hare"].skin
+    assert skin is not None and skin.triangles.max() == len(skin.vertices) - 1
+    centre = skin.vertices.mean(axis=0)
+    assert np.allclose(centre, sim["hare"].centre_of_mass, atol=0.05)
+    moved = np.float32([0.5, -0.25, 2.0])
+    sim["hare"].positions = sim["hare"].positions + moved
+    after = sim["hare"].skin
+    assert after is not None and np.allclose(after.vertices, skin.vertices + moved, atol=1e-6)
+    assert aspic.Simulation(aspic.load("cube-plane"), backend="reference")["cube"].skin is None
     assert len(yard.notes) > 0 and all(note.startswith("rabbit: ") for note in yard.notes)
     # A box, in millimetres, z upwards; first of one side alone.
     corners = [(x, y, z) for x in (0, 20) for y in (0, 20) for z in (0, 40)]
