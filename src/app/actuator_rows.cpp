@@ -10,7 +10,9 @@
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "aspic/model.h"
 #include "base/printable.h"
+#include "model/actuators.h"
 #include "model/bodies.h"
 #include "scene/follow.h"
 
@@ -65,8 +67,22 @@ void name_boxes(Gui& gui, SceneControl& scene, const char* path, std::size_t i, 
   if (changed) scene.set_value(p, i, Value(ticked));
 }
 
+/// The number that an actuator takes from the inputs, from the next step on.
+void input_now(Gui& gui, Simulation& simulation, const std::string& name, std::size_t i) {
+  const Inputs inputs = simulation.inputs();
+  const std::vector<std::string> names = input_names(simulation.model());
+  const auto channel = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  double w = channel < inputs.channels.size() ? inputs.channels[channel] : 0.0;
+  const double before = w;
+  slider(gui, "Input now", fmt::format("actuator/{}/input", i), w, -1.0, 1.0, "%.2f",
+         "The signal w of this actuator, from the next step on. A reset takes it back to 0, or to the log that "
+         "is replayed.",
+         false);
+  if (w != before) simulation.stepper().acts().channels[name] = w;
+}
+
 /// True if it was removed.
-bool actuator(Gui& gui, SceneControl& scene, const SettingsList& list, std::size_t i) {
+bool actuator(Gui& gui, SceneControl& scene, Simulation& simulation, const SettingsList& list, std::size_t i) {
   if (element_line(gui, fmt::format("actuator {}", i), fmt::format("actuator/{}/remove", i),
                    "Removes this actuator; the bodies stay.\n\nScene key: [[actuator]]", true)) {
     scene.change("remove actuator", [&](Scene& s) { list.remove(s.model, i); });
@@ -84,6 +100,8 @@ bool actuator(Gui& gui, SceneControl& scene, const SettingsList& list, std::size
     if (p.key() == "body" || p.key() == "select.material" || p.key() == "select.springs") continue;
     edit(gui, scene, p.path, i, {capitalized(spaced(p.key()))});
   }
+  if (scene.scene().model.actuators[i].signal == Signal::input)
+    input_now(gui, simulation, actuator_name(scene.scene().model, i), i);
   return false;
 }
 
@@ -106,17 +124,20 @@ void add_actuator_button(Gui& gui, SceneControl& scene, std::string_view key, st
   });
 }
 
-void actuators_of_bodies(Gui& gui, SceneControl& scene) {
+void actuators_of_bodies(Gui& gui, SceneControl& scene, Simulation& simulation) {
   const SettingsList* const list = actuators();
   if (!list) return;
   for (std::size_t i = 0; i < list->size(scene.scene().model); ++i)
-    if (actuator(gui, scene, *list, i)) return;
+    if (actuator(gui, scene, simulation, *list, i)) return;
 }
 
 void remove_body(Scene& scene, const SettingsList& bodies, std::size_t index) {
   const std::string own = body_name(scene, bodies.key, index);
   bodies.remove(scene.model, index);
-  if (scene.view.follow) scene.view.follow = followed_without(*scene.view.follow, bodies.key, index);
+  if (scene.view.follow == own)
+    scene.view.follow.reset();
+  else if (scene.view.follow)
+    scene.view.follow = followed_without(*scene.view.follow, bodies.key, index);
   const SettingsList* const list = actuators();
   for (std::size_t a = list ? list->size(scene.model) : 0; a-- > 0;) {
     const Names before = names_of(scene, "actuator[].body", a);

@@ -248,7 +248,7 @@ void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
   edit(gui, scene, "cube[].rotation.angle", cube, {"Rotation angle"});
 }
 
-void bodies_section(Gui& gui, SceneControl& scene, CellEditor& cells, Layouts& layout) {
+void bodies_section(Gui& gui, SceneControl& scene, Simulation& simulation, CellEditor& cells, Layouts& layout) {
   add_buttons(gui, scene, cells);
   const SettingsList& cubes = body_rows().front().list;
   const std::size_t count = cubes.size(scene.scene().model);
@@ -266,7 +266,7 @@ void bodies_section(Gui& gui, SceneControl& scene, CellEditor& cells, Layouts& l
     add_actuator_button(gui, scene, "cube", i);
   }
   for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, cells, layout, row.list);
-  actuators_of_bodies(gui, scene);
+  actuators_of_bodies(gui, scene, simulation);
   if (body_count(scene.scene().model) > 1 && !scene.scene().model.contact.bodies)
     ImGui::TextDisabled("Bodies pass through each other: see Contact.");
 }

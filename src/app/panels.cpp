@@ -38,7 +38,7 @@ constexpr Heading left_sections[] = {
      "Stiffness and damping, of all types together or by type, or a material."},
     {"Scene", [](Parts p) { scene_section(p.gui, p.scene); },
      "Scenes and terrain; opening, saving and reloading."},
-    {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene, p.cells, p.layout); },
+    {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene, p.simulation, p.cells, p.layout); },
      "Add a body: a cube, a box, cells, a cloth, a net, a ball, a mesh; place, size, mass and pins of those "
      "there "
      "are."},

@@ -66,7 +66,7 @@ void draw_panels(const PanelParts& parts, double width, double height);
 // ---- sections of the panels; each a heading with its widgets ----
 void scene_section(Gui& gui, SceneControl& scene);
 void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene, const Comparison& comparison);
-void bodies_section(Gui& gui, SceneControl& scene, CellEditor& cells, Layouts& layout);
+void bodies_section(Gui& gui, SceneControl& scene, Simulation& simulation, CellEditor& cells, Layouts& layout);
 /// Layers of a body of cells, painted with the mouse, and its palette.
 void cells_section(Gui& gui, SceneControl& scene, CellEditor& cells);
 /// Materials that have names.
@@ -76,9 +76,10 @@ void made_of_row(Gui& gui, SceneControl& scene, std::string_view section, std::s
 /// A line that names an element of a list, with a button that removes it. True if it was pressed.
 bool element_line(Gui& gui, const std::string& title, const std::string& name, std::string_view help,
                   bool enabled);
-/// Adds an actuator that acts on a body; all actuators with their keys. Nothing where scenes have none.
+/// Adds an actuator that acts on a body; all actuators with their keys, and what inputs they have now.
+/// Nothing where scenes have none.
 void add_actuator_button(Gui& gui, SceneControl& scene, std::string_view key, std::size_t index);
-void actuators_of_bodies(Gui& gui, SceneControl& scene);
+void actuators_of_bodies(Gui& gui, SceneControl& scene, Simulation& simulation);
 /// Removes a body from a scene: the camera does not follow it any more, and no actuator acts on it.
 void remove_body(Scene& scene, const SettingsList& bodies, std::size_t index);
 /// The colour in which the window shows a material by name, and cells of a body; neutral for none.

@@ -160,7 +160,9 @@ Result<PictureOptions> ScenePicture::options_of(const Content& content, bool leg
   if (!ghost)
     arrows_ = arrows_of(simulation_.model(), shown_state(), options.view.arrows, simulation_.inputs());
   options.arrows = arrows_;
-  options.channels = simulation_.inputs().channels;
+  const Playback& playback = simulation_.playback();
+  options.channels = playback.at_end() ? simulation_.inputs().channels
+                                       : playback.history().inputs_at(playback.here()).channels;
   options.highlight = content.marks;
   return options;
 }

@@ -158,7 +158,8 @@ Status Rebuild::reset() {
     ASPIC_CHECK(stepper_.install(setup, factory_.make_like(present_.engines(), setup)));
   }
   forget_run();
-  stepper_.set_hand(std::nullopt);  // its particle may be no more
+  stepper_.acts().hand.reset();  // its particle may be no more
+  stepper_.acts().channels.clear();
   stepper_.forget_resumed();
   const State start = initial_state(present_.model(), Precision::single);
   ASPIC_CHECK(begin_stretch(start));
@@ -174,6 +175,7 @@ Status Rebuild::start_from(const State& state, InputLog inputs) {
   if (!now.thrown.empty() || !now.pinned.empty())
     ASPIC_CHECK(stepper_.install(setup, factory_.make_like(present_.engines(), setup)));
   forget_run();
+  stepper_.acts().channels.clear();
   stepper_.resume(std::move(inputs));
   ASPIC_CHECK(begin_stretch(grown_state(present_.model(), state)));
   figures_.remember(present_.snapshot(), {present_.engines().measured(present_.snapshot())});

@@ -59,10 +59,10 @@ class Simulation {
   /// running or diverged. In the past it follows the history.
   Status single_step();
   /// From the next step on; nothing lets go.
-  void set_hand(const std::optional<Pull>& hand) { stepper_.set_hand(hand); }
+  void set_hand(const std::optional<Pull>& hand) { stepper_.acts().hand = hand; }
   /// What holds in the step that begins here.
   Inputs inputs() const { return stepper_.inputs(); }
-  const std::optional<Pull>& hand() const { return stepper_.hand(); }
+  const std::optional<Pull>& hand() const { return stepper_.acts().hand; }
   /// Once for each picture: takes what the solver finished and sets it to work again for at most about
   /// `budget` seconds. `dt` is the time since the last call [s]. A backend that fails in the context is
   /// replaced by contextless_backend(), see take_message().

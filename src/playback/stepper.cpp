@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "aspic/model.h"
 #include "base/stopwatch.h"
 #include "model/integrator.h"
 #include "model/springs.h"
@@ -18,6 +19,19 @@ using Clock = std::chrono::steady_clock;
 constexpr double copy_every = 0.1;  // s
 /// What a job takes [s]: nobody waits for it, so it may be longer than a picture.
 constexpr double shortest_job = 0.030, longest_job = 0.1;
+
+/// Of those that the model reads.
+void set_channels(const std::map<std::string, double>& by_hand, const Model& model,
+                  std::vector<double>& channels) {
+  if (by_hand.empty()) return;
+  const std::vector<std::string> names = input_names(model);
+  for (const auto& [name, w] : by_hand) {
+    const auto channel = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    if (channel == names.size()) continue;
+    channels.resize(std::max(channels.size(), channel + 1));
+    channels[channel] = w;
+  }
+}
 
 }  // namespace
 
@@ -45,17 +59,18 @@ Status Stepper::prepare() {
 }
 
 /// A model may have come to pin other particles, or to have others; what does not fit it is left out. Where a
-/// hand pinned or freed a particle, which the model shows already, a log has no say.
-Inputs Stepper::composed(const std::map<std::uint32_t, bool>& by_hand, const Model& model,
-                         const InputLog& log, std::uint64_t step, Inputs followed,
-                         const std::optional<Pull>& hand) {
+/// hand pinned or freed a particle, which the model shows already, or set a channel, a log has no say.
+Inputs Stepper::composed(Acts acts, const std::map<std::uint32_t, bool>& by_hand, const Model& model,
+                         const InputLog& log, std::uint64_t step) {
   Inputs all = log.at(step);
+  Inputs& followed = acts.followed;
   const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   add(all.pulls, followed.pulls);
-  if (hand) all.pulls.push_back(*hand);
+  if (acts.hand) all.pulls.push_back(*acts.hand);
   add(all.pinned, followed.pinned);
   add(all.released, followed.released);
   if (all.channels.empty()) all.channels = std::move(followed.channels);
+  set_channels(acts.channels, model, all.channels);
   std::erase_if(all.pulls, [&](const Pull& pull) {
     return pull.particle >= (pull.ball ? model.ball_count() : model.particle_count());
   });
@@ -197,11 +212,10 @@ void Stepper::start_job(std::uint64_t to, double budget, const std::optional<Inp
   if (jobs_.idle()) job_step_ = present_.step();
   job_to_ = to;
   const auto advance =
-      [=, this, log = log_, followed = followed_, hand = hand_,
+      [=, this, log = log_, acts = acts_,
        by_hand = present_.setup().pinned](const std::atomic<bool>& cancelled) -> Result<JobResult> {
     Engines& engines = present_.engines();
-    const Inputs inputs =
-        repeated ? *repeated : composed(by_hand, engines.model(), *log, job_step_, followed, hand);
+    const Inputs inputs = repeated ? *repeated : composed(acts, by_hand, engines.model(), *log, job_step_);
     ASPIC_CHECK(engines.use_context() ? Status() : engines.set_inputs(inputs));
     const std::uint64_t stop = repeated ? to : std::min(to, log->next_change(job_step_).value_or(to));
     const JobLimits limits = {job_step_, std::max(stop, job_step_), budget, repeated.has_value()};
@@ -268,8 +282,8 @@ Status Stepper::refresh_snapshot() {
 Status Stepper::install(Setup setup, Result<Engines> engines) {
   ASPIC_CHECK(present_.install(std::move(setup), std::move(engines)));
   const Model& model = present_.model();
-  if (hand_ && hand_->particle >= (hand_->ball ? model.ball_count() : model.particle_count()))
-    hand_.reset();  // what it held is no more
+  if (acts_.hand && acts_.hand->particle >= (acts_.hand->ball ? model.ball_count() : model.particle_count()))
+    acts_.hand.reset();  // what it held is no more
   batch_ = 1;
   figures_.restart_stride();
   return {};

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "aspic/inputs.h"
@@ -29,11 +30,14 @@ class Stepper {
   const Pacer& pacer() const { return pacer_; }
   void set_running(bool running);
   bool running() const { return running_; }
-  /// From the next step on; nothing lets go.
-  void set_hand(const std::optional<Pull>& hand) { hand_ = hand; }
-  const std::optional<Pull>& hand() const { return hand_; }
-  /// From the next step on, in addition to the hand's: those of another run that this one follows.
-  void set_followed(Inputs inputs) { followed_ = std::move(inputs); }
+  /// What acts from the next step on besides a log, which adds to it.
+  struct Acts {
+    std::optional<Pull> hand;                ///< nothing: it lets go
+    std::map<std::string, double> channels;  ///< w by actuator that follows an input, whatever logs say
+    Inputs followed;                         ///< of another run that this one follows
+  };
+  Acts& acts() { return acts_; }
+  const Acts& acts() const { return acts_; }
   /// From the next step on a log's inputs at their steps, in addition to all others; an empty one: none.
   void replay(InputLog log) {
     log_ = std::make_shared<const InputLog>(std::move(log));
@@ -50,7 +54,7 @@ class Stepper {
   const InputLog& log() const { return *log_; }
   /// What holds in the step that begins here: a log's, those that are followed, the hand's.
   Inputs inputs() const {
-    return composed(present_.setup().pinned, present_.model(), *log_, present_.step(), followed_, hand_);
+    return composed(acts_, present_.setup().pinned, present_.model(), *log_, present_.step());
   }
   /// Single steps that were asked for and not done.
   std::uint64_t single_steps() const { return single_steps_; }
@@ -83,9 +87,8 @@ class Stepper {
  private:
   Status prepare();
   Status advance_here(std::uint64_t steps, double budget);
-  static Inputs composed(const std::map<std::uint32_t, bool>& by_hand, const Model& model,
-                         const InputLog& log, std::uint64_t step, Inputs followed,
-                         const std::optional<Pull>& hand);
+  static Inputs composed(Acts acts, const std::map<std::uint32_t, bool>& by_hand, const Model& model,
+                         const InputLog& log, std::uint64_t step);
   std::uint64_t next_change(std::uint64_t otherwise) const;
   void start_job(std::uint64_t to, double budget, const std::optional<Inputs>& repeated);
   Status take_up(JobResult result);
@@ -100,8 +103,7 @@ class Stepper {
   Figures& figures_;
   EngineFactory& factory_;
   Pacer pacer_;
-  std::optional<Pull> hand_;
-  Inputs followed_;
+  Acts acts_;
   std::shared_ptr<const InputLog> log_ = std::make_shared<const InputLog>();  // jobs hold it too
   bool resumed_ = false, running_ = false;
   std::uint64_t single_steps_ = 0;

@@ -132,7 +132,7 @@ Status VariantRun::follow(const Scene& scene, const Simulation& leader, double d
     const Moment then = {here.stretch,
                          std::clamp(nearest_step(own.time(), leader.model().simulation.timestep),
                                     history.stretch(here.stretch).first, here.step)};
-    own.stepper().set_followed(fitting(leader, history.inputs_at(then)));
+    own.stepper().acts().followed = fitting(leader, history.inputs_at(then));
     if (const auto next = history.next_input_change(then))
       wanted = std::min(wanted, std::max(step_at(history.time({here.stretch, *next})), own.step() + 1));
   }
@@ -153,7 +153,7 @@ void VariantRun::rest(std::uint64_t step, bool paused) {
 
 Status VariantRun::recall(double time, double dt, double budget) {
   Simulation& own = *simulation_;
-  own.stepper().set_followed({});
+  own.stepper().acts().followed = {};
   const Moment moment = own.playback().history().nearest(time);
   if (!own.playback().seeking() && moment != own.playback().here()) ASPIC_CHECK(own.playback().seek(moment));
   ASPIC_CHECK(own.update(dt, budget));
@@ -163,7 +163,7 @@ Status VariantRun::recall(double time, double dt, double budget) {
 
 Status VariantRun::go_on_to(double time, bool paused, double dt, double budget) {
   Simulation& own = *simulation_;
-  own.stepper().set_followed({});
+  own.stepper().acts().followed = {};
   const std::uint64_t wanted = step_at(time);
   ASPIC_CHECK(go_to(wanted));
   rest(wanted, paused);
@@ -174,7 +174,7 @@ Status VariantRun::go_on_to(double time, bool paused, double dt, double budget) 
 
 Status VariantRun::lead(const Pacer& pace, bool running, bool waits, double dt, double budget) {
   Simulation& own = *simulation_;
-  own.stepper().set_followed({});
+  own.stepper().acts().followed = {};
   own.pacer().catch_up(false);
   own.pacer().set_pace(pace.pace());
   own.pacer().set_speed(pace.speed());

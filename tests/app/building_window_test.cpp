@@ -7,6 +7,7 @@
 
 #include "app/stage.h"
 #include "base/files.h"
+#include "cpu_reference/reference_solver.h"
 #include "model/bodies.h"
 #include "model/voxels.h"
 #include "scene/scene_checks.h"
@@ -223,6 +224,46 @@ TEST_F(Building, MaterialsComeAndGoAndBodiesFollow) {
   frames(2);
   EXPECT_TRUE(settings().materials.empty());
   EXPECT_FALSE(app().scene.editor().can_undo());
+}
+
+TEST_F(Building, ActuatorsAreAddedSteeredAndRemoved) {
+  open_with("worm", {"Bodies"}, {"actuator[0].signal=input", "actuator[0].ramp=0"});
+  simulation().set_running(false);
+  // A slider of the input, as far as it goes; no change of the scene.
+  bring_into_sight("actuator/0/input");
+  frames(2);
+  const Box slider = widgets().at("actuator/0/input");
+  const double middle = 0.5 * (slider.left + slider.right);
+  drag(GLFW_MOUSE_BUTTON_LEFT, middle, slider.centre_y(), slider.right - middle, 0.0);
+  frames(3);
+  EXPECT_THAT(simulation().inputs().channels, ElementsAre(1.0));
+  EXPECT_FALSE(app().scene.editor().can_undo());
+  for (int n = 0; n < 3; ++n) EXPECT_TRUE(simulation().single_step().ok());
+  EXPECT_TRUE(simulation().playback().settle().ok());
+  const auto reference = make_reference_solver(build_model(settings()).value(), Precision::single).value();
+  ASSERT_TRUE(reference->set_inputs({.channels = {1.0}}).ok());
+  ASSERT_FALSE(reference->advance(3)->has_value());
+  EXPECT_TRUE(simulation().refresh_snapshot().ok());
+  EXPECT_EQ(simulation().snapshot(), reference->state().value());
+  // The log of the run knows it, a reset takes it back.
+  EXPECT_EQ(simulation().playback().history().inputs_at(simulation().playback().here()).channels.size(), 1u);
+  EXPECT_TRUE(simulation().rebuild().reset().ok());
+  EXPECT_TRUE(simulation().inputs().channels.empty());
+  // Another one, for the same body.
+  bring_into_sight("voxels/0/actuator");
+  click("voxels/0/actuator");
+  frames(2);
+  ASSERT_EQ(settings().actuators.size(), 2u);
+  EXPECT_THAT(settings().actuators[1].bodies, ElementsAre("worm"));
+  EXPECT_FALSE(has("actuator/1/input")) << "a sine has none";
+  press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  frames(2);
+  EXPECT_EQ(settings().actuators.size(), 1u);
+  bring_into_sight("actuator/0/remove");
+  click("actuator/0/remove");
+  frames(2);
+  EXPECT_TRUE(settings().actuators.empty());
+  EXPECT_FALSE(has("actuator/0/input"));
 }
 
 TEST_F(Building, APaletteGrowsAndCellsKeepTheirMaterial) {
