@@ -40,6 +40,12 @@ Status check_live(ComparisonView& view) {
                           comparison.run(0).present().engines().leader().arithmetic, has_hands(comparison));
 }
 
+/// What acts on a run, as its solver takes it; nothing where that would refuse it.
+Inputs inputs_of_run(const Simulation& run, Precision precision) {
+  auto inputs = rounded_inputs(run.model(), run.inputs(), precision);
+  return inputs ? std::move(*inputs) : Inputs();
+}
+
 class FilmPage final : public FilmFile {
  public:
   FilmPage(const Comparison& comparison, page::PageWriter writer, bool live)
@@ -47,7 +53,12 @@ class FilmPage final : public FilmFile {
 
  private:
   bool goes_on(const Comparison& comparison) const override { return !live_ || !has_hands(comparison); }
-  Status write(const Comparison&, const States& states) override { return writer_.add(states); }
+  Status write(const Comparison& comparison, const States& states) override {
+    std::vector<Inputs> inputs;
+    for (std::size_t i = 0; i < states.size(); ++i)
+      inputs.push_back(inputs_of_run(comparison.run(i), states[i]->precision));
+    return writer_.add(states, inputs);
+  }
   Status complete_with(const States& last,
                        const std::vector<std::optional<Divergence>>& divergences) override {
     return writer_.finish(last, divergences);
@@ -61,12 +72,6 @@ class FilmPage final : public FilmFile {
   page::PageWriter writer_;
   bool live_;
 };
-
-/// What acts on a run, as its solver takes it; nothing where that would refuse it.
-Inputs inputs_of_run(const Simulation& run, Precision precision) {
-  auto inputs = rounded_inputs(run.model(), run.inputs(), precision);
-  return inputs ? std::move(*inputs) : Inputs();
-}
 
 class FilmStates final : public FilmFile {
  public:

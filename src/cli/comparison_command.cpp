@@ -168,7 +168,9 @@ class ComparisonPage {
   Status add(const HeadlessVariants& variants) {
     if (!failures_.empty()) return {};
     ASPIC_CHECK(take(variants));
-    note(writer_.add(pointers()));
+    std::vector<Inputs> inputs;
+    for (const auto& m : variants) inputs.push_back(m->headless->solver().inputs());
+    note(writer_.add(pointers(), inputs));
     return {};
   }
   Status finish(const HeadlessVariants& variants) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "live/live_run.h"
 #include "model/model.h"
@@ -17,6 +18,7 @@ namespace aspic::live {
 namespace {
 
 std::string given, said;
+std::vector<double> channels;
 std::optional<LiveRun> run;
 
 int done(const Status& status) {
@@ -50,6 +52,12 @@ ASPIC_EXPORT(answer_size) std::size_t answer_size() {
   return said.size();
 }
 
+/// Room for so many channels of the inputs, which change() reads.
+ASPIC_EXPORT(inputs) double* inputs(std::size_t count) {
+  channels.assign(count, 0.0);
+  return channels.data();
+}
+
 /// LiveRun::create() and change(); the answer is facts().
 ASPIC_EXPORT(create) int create() {
   run.reset();
@@ -60,7 +68,7 @@ ASPIC_EXPORT(create) int create() {
   return 0;
 }
 ASPIC_EXPORT(change) int change() {
-  if (const Status changed = run->change(given); !changed) return done(changed);
+  if (const Status changed = run->change(given, channels); !changed) return done(changed);
   said = facts();
   return 0;
 }

@@ -1,7 +1,9 @@
 #include "live/live_run.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "aspic/model.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/actuation.h"
 #include "model/model.h"
@@ -27,7 +29,7 @@ std::size_t numbers_of(const Model& model) {
 }  // namespace
 
 LiveRun::LiveRun(Scene scene, std::unique_ptr<Solver> solver)
-    : scene_(std::move(scene)), solver_(std::move(solver)), numbers_(numbers_of(solver_->model())) {}
+    : scene_(std::move(scene)), solver_(std::move(solver)), names_(input_names(solver_->model())), numbers_(numbers_of(solver_->model())) {}
 
 Result<LiveRun> LiveRun::create(std::string_view key_lines) {
   ASPIC_TRY(auto scene, with_key_lines({}, key_lines));
@@ -35,28 +37,44 @@ Result<LiveRun> LiveRun::create(std::string_view key_lines) {
   return LiveRun(std::move(scene), std::move(solver));
 }
 
-Status LiveRun::change(std::string_view key_lines) {
+Status LiveRun::change(std::string_view key_lines, std::vector<double> channels) {
   ASPIC_TRY(auto scene, with_key_lines(scene_, key_lines));
   ASPIC_TRY(auto solver, solver_of(scene));
   ASPIC_TRY(const State state, solver_->state());
   if (const Status loaded = solver->load(state); !loaded)
     return fail(ErrorCode::scene_rejected,
                 "The number of particles and balls cannot change while a run goes on.");
+  ASPIC_TRY(Inputs inputs, inputs_for(solver->model(), channels));
+  ASPIC_CHECK(solver->set_inputs(inputs));
+  inputs_ = std::move(inputs);
   scene_ = std::move(scene);
   solver_ = std::move(solver);
-  (void)actuators_.add(model(), state);
+  (void)actuators_.add(model(), state, inputs_);
   return {};
+}
+
+/// An actuator may have come to follow another signal, so that the model reads other channels.
+Result<Inputs> LiveRun::inputs_for(const Model& model, std::span<const double> channels) const {
+  if (channels.size() > names_.size())
+    return fail(ErrorCode::usage, "{} channels are given, and the scene reads {}.", channels.size(),
+                names_.size());
+  Inputs inputs;
+  for (const std::string& name : input_names(model)) {
+    const auto at = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
+    inputs.channels.push_back(at < channels.size() ? channels[at] : 0.0);
+  }
+  return inputs;
 }
 
 Status LiveRun::take() {
   ASPIC_TRY(const State state, solver_->state());
   ASPIC_TRY(step_, solver_->read_into(places()));
   hash_ = state_hash_text(state);
-  measures_ = measure(model(), state);
-  work_ = actuators_.add(model(), state);
+  measures_ = measure(model(), state, inputs_);
+  work_ = actuators_.add(model(), state, inputs_);
   changes_.clear();
   RestLengths lengths(model());
-  for (const double r : lengths.at(step_, 0.0, {})) {
+  for (const double r : lengths.at(step_, 0.0, inputs_.channels)) {
     const ActuatedClass& of = model().actuation.classes[changes_.size()];
     changes_.push_back(static_cast<float>(r / model().spring_classes[of.spring_class].rest_length - 1.0));
   }
@@ -73,7 +91,7 @@ Status LiveRun::load(std::uint64_t step) {
   ASPIC_CHECK(solver_->load(view, step));
   ASPIC_TRY(const State state, solver_->state());
   actuators_ = {};
-  (void)actuators_.add(model(), state);
+  (void)actuators_.add(model(), state, inputs_);
   return {};
 }
 

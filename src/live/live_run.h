@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "aspic/analysis.h"
+#include "aspic/inputs.h"
 #include "aspic/scene.h"
 #include "aspic/solver.h"
 #include "base/result.h"
@@ -23,10 +24,11 @@ class LiveRun {
   /// (scene_rejected): with_key_lines(), build_model(), make_reference_solver().
   static Result<LiveRun> create(std::string_view key_lines);
 
-  /// Goes on from the state it has with other values of some keys; then a divergence is forgotten. Errors
-  /// (scene_rejected), after which nothing has changed: those of create(); a scene of other particles or
-  /// balls.
-  Status change(std::string_view key_lines);
+  /// Goes on from the state it has with other values of some keys, and with these channels of the inputs, in
+  /// the order of the scene that it began with; then a divergence is forgotten. Errors, after which nothing
+  /// has changed: those of create(); a scene of other particles or balls (scene_rejected); more channels than
+  /// there are (usage).
+  Status change(std::string_view key_lines, std::vector<double> channels = {});
 
   /// Solver::advance().
   Result<std::optional<Divergence>> advance(std::uint64_t steps) { return solver_->advance(steps); }
@@ -53,9 +55,12 @@ class LiveRun {
  private:
   LiveRun(Scene scene, std::unique_ptr<Solver> solver);
   StateView places();
+  Result<Inputs> inputs_for(const Model& model, std::span<const double> channels) const;
 
   Scene scene_;
   std::unique_ptr<Solver> solver_;
+  std::vector<std::string> names_;  // of the channels of the scene that it began with
+  Inputs inputs_;
   std::vector<float> numbers_;
   std::uint64_t step_ = 0;
   std::string hash_;

@@ -210,8 +210,8 @@ Json view_facts(const Scene& scene) {
   return facts;
 }
 
-std::vector<Vec3> changes_of(const Model& model, std::uint64_t step) {
-  const std::vector<double> lengths = rest_lengths(model, step, 0.0, {});
+std::vector<Vec3> changes_of(const Model& model, std::uint64_t step, std::span<const double> channels) {
+  const std::vector<double> lengths = rest_lengths(model, step, 0.0, channels);
   const std::vector<ActuatedClass>& classes = model.actuation.classes;
   std::vector<Vec3> changes(change_vectors(model));
   for (std::size_t i = 0; i < classes.size(); ++i) {

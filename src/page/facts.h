@@ -30,8 +30,8 @@ Json run_facts(const Scene& scene, const Model& model, const std::string& name, 
 /// The view's camera and what it shows, and the colours of its scales.
 Json view_facts(const Scene& scene);
 
-/// r/r₀ − 1 of the actuated classes at a step, three to a vector, with inputs of 0.
-std::vector<Vec3> changes_of(const Model& model, std::uint64_t step);
+/// r/r₀ − 1 of the actuated classes at a step, three to a vector. `channels`: Inputs::channels that hold.
+std::vector<Vec3> changes_of(const Model& model, std::uint64_t step, std::span<const double> channels);
 /// How many vectors that are.
 inline std::size_t change_vectors(const Model& model) {
   return (model.actuation.classes.size() + 2) / 3;

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "base/embedded_file.h"
+#include "model/actuators.h"
 #include "scene/key_lines.h"
 #include "scene/parameters.h"
 
@@ -63,10 +64,29 @@ Json row_facts(const Parameter& p, std::size_t index, const Value& value) {
   return row;
 }
 
-/// "cube 2" of `cube[]` and 1, where there are several.
-std::string title_of(std::string_view section, std::size_t index, std::size_t count) {
-  const std::string name(section.substr(0, section.find('[')));
-  return count > 1 ? fmt::format("{} {}", name, index + 1) : name;
+/// "cube 2" of `cube[]` and 1, where there are several; "voxels worm" where it has a name.
+std::string title_of(std::string_view section, const Scene& scene, std::size_t index, std::size_t count) {
+  const std::string kind(section.substr(0, section.find('[')));
+  if (const Parameter* const name = find_parameter(fmt::format("{}.name", section)); name && count > 0)
+    if (const auto own = name->get(scene, index); own && !std::get<std::string>(*own).empty())
+      return fmt::format("{} {}", kind, std::get<std::string>(*own));
+  return count > 1 ? fmt::format("{} {}", kind, index + 1) : kind;
+}
+
+/// Numbers that actuators take from the inputs; `channel` is the place among them.
+Json input_rows(const ModelSettings& settings) {
+  Json rows = Json::array();
+  for (const std::string& name : channel_names(settings))
+    rows.push_back({{"path", fmt::format("input {}", name)},
+                    {"label", name},
+                    {"unit", ""},
+                    {"value", 0.0},
+                    {"meaning", "The signal w of this actuator, which is 0 until it is set."},
+                    {"allowed", "a number from -1 to 1"},
+                    {"min", -1.0},
+                    {"max", 1.0},
+                    {"channel", rows.size()}});
+  return rows;
 }
 
 }  // namespace
@@ -88,6 +108,8 @@ Status check_live(Precision precision, Arithmetic arithmetic, bool inputs) {
 
 Json live_facts(const Scene& scene) {
   Json groups = Json::array(), solve = Json::array();
+  if (Json rows = input_rows(scene.model); !rows.empty())
+    groups.push_back({{"title", "inputs"}, {"open", true}, {"rows", rows}});
   std::vector<std::string_view> done;
   bool bodies = false;  // those of the first one are seen at once
   for (const Parameter& first : parameters()) {
@@ -103,7 +125,7 @@ Json live_facts(const Scene& scene) {
             (p.key().starts_with("implicit.") ? solve : rows).push_back(row_facts(p, i, *value));
       if (rows.empty()) continue;
       const bool list = section.ends_with("[]"), body = list && !section.starts_with("terrain");
-      groups.push_back({{"title", title_of(section, i, count)},
+      groups.push_back({{"title", title_of(section, scene, i, count)},
                         {"open", section == "simulation" || (body && !std::exchange(bodies, true))},
                         {"rows", rows}});
     }

@@ -124,7 +124,7 @@ Status PageWriter::begin(const PageSettings& settings, std::span<const PageRun> 
   return pack(deflater_.add(bytes), false);
 }
 
-Status PageWriter::add(std::span<const State* const> states, const Inputs& inputs) {
+Status PageWriter::add(std::span<const State* const> states, std::span<const Inputs> inputs) {
   bool went_on = false;
   for (std::size_t i = 0; i < states.size(); ++i)
     went_on = went_on || tracks_[i].steps.empty() || tracks_[i].steps.back() != states[i]->step;
@@ -135,19 +135,21 @@ Status PageWriter::add(std::span<const State* const> states, const Inputs& input
     const State& state = *states[i];
     positions_ += state.position.size() + state.ball_position.size();
     Tracks& tracks = tracks_[i];
-    const Measures m = measure(*models_[i], state, inputs);
+    const Inputs holding = i < inputs.size() ? inputs[i] : Inputs();
+    const Measures m = measure(*models_[i], state, holding);
     if (const auto bad = first_not_finite(m))
       return fail(ErrorCode::diverged, "{}: {} of step {} is not a finite number.", printable_line(path()),
                   *bad, state.step);
     tracks.kinetic.push_back(m.kinetic);
     tracks.elastic.push_back(m.elastic);
     tracks.gravitational.push_back(m.gravitational);
-    if (const auto work = tracks.actuators.add(*models_[i], state, inputs)) tracks.work.push_back(*work);
+    if (const auto work = tracks.actuators.add(*models_[i], state, holding)) tracks.work.push_back(*work);
     tracks.steps.push_back(state.step);
     tracks.particles.append(state.position, bytes);
     tracks.balls.append(state.ball_position, bytes);
     tracks.spins.append(state.ball_angular_velocity, bytes);
-    if (!models_[i]->actuation.empty()) tracks.changes.append(changes_of(*models_[i], state.step), bytes);
+    if (!models_[i]->actuation.empty())
+      tracks.changes.append(changes_of(*models_[i], state.step, holding.channels), bytes);
   }
   return pack(deflater_.add(bytes), false);
 }
@@ -222,7 +224,8 @@ class PageSink final : public StateSink {
     }
     while (frame_ < schedule_.count() && schedule_.step_of(frame_) <= sample.state.step) ++frame_;
     const State* const state = &sample.state;
-    return writer_.add({&state, 1}, inputs_of(sample));
+    const Inputs inputs = inputs_of(sample);
+    return writer_.add({&state, 1}, {&inputs, 1});
   }
   Status finish(const Sample& last) override {
     ASPIC_CHECK(take(last));

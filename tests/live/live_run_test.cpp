@@ -92,6 +92,26 @@ TEST(LiveRun, GoesOnWithOtherValuesFromWhereItIs) {
   EXPECT_EQ(hash_of(run), state_hash_text(after->state().value()));
 }
 
+TEST(LiveRun, FollowsInputs) {
+  const Scene scene = scene_of({"actuator[0].signal=input", "actuator[0].name=legs"}, "worm");
+  LiveRun run = run_of(scene);
+  const auto solver = solver_of(scene);
+  Inputs half;
+  half.channels = {0.5};
+  ASSERT_TRUE(run.advance(50).ok() && solver->advance(50).ok());
+  ASSERT_TRUE(run.change("", {0.5}).ok() && solver->set_inputs(half).ok());
+  ASSERT_TRUE(run.advance(50).ok() && solver->advance(50).ok());
+  const State state = solver->state().value();
+  EXPECT_EQ(hash_of(run), state_hash_text(state));
+  EXPECT_EQ(run.measures().elastic, measure(solver->model(), state, half).elastic);
+  EXPECT_GT(std::ranges::max(run.changes()), 0.01f);
+  // An actuator that comes to follow another signal reads no channel; back again it does.
+  ASSERT_TRUE(run.change("actuator[0].signal=\"sine\"\n", {0.5}).ok());
+  ASSERT_TRUE(run.change("actuator[0].signal=\"input\"\n", {-0.5}).ok() && run.take().ok());
+  EXPECT_LT(std::ranges::min(run.changes()), -0.01f);
+  EXPECT_FALSE(run.change("", {0.5, 0.5}).ok());
+}
+
 TEST(LiveRun, RefusesWhatNoRunCanHaveAndGoesOnAsItWas) {
   const Scene scene = scene_of();
   LiveRun run = run_of(scene);

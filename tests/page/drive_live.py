@@ -141,6 +141,22 @@ def actuated(b, where):
     require(0.001 < most < 1, f"{where}: rest lengths are changed by {most} at most")
 
 
+def inputs(b, where):
+    """Sliders of the inputs that actuators follow."""
+    rows = b.call("return aspic.recording.inputs.map((row) => [row.path, row.label])")
+    for path, label in rows:
+        most = lambda: b.call("return Math.max(...aspic.recording.run.changes.at(-1).map(Math.abs))")
+        require(most() == 0, f"{where}: rest lengths follow {label} before it is set")
+        b.call("aspic.player.playing = false; aspic.player.seek(aspic.recording.times[1])")
+        b.call(f"aspic.panel.set({json.dumps(path)}, 0.5); await new Promise((go) => requestAnimationFrame(() => setTimeout(go, 50)))")
+        wait(b, "aspic.recording.done && aspic.panel.pending.size === 0", f"the end with {label}")
+        require(most() > 0.001, f"{where}: rest lengths do not follow {label}")
+        b.call("document.getElementById('restore').click()")
+        wait(b, "aspic.recording.done && !aspic.recording.changed", "the scene again")
+        require(most() == 0, f"{where}: the scene restored keeps {label}")
+    return [label for _, label in rows]
+
+
 def open_pages(b, job):
     for number, page in enumerate(job["pages"]):
         where = page.rsplit("/", 1)[-1]
@@ -153,7 +169,12 @@ def open_pages(b, job):
         wait(b, "aspic.stats.pictures > 0", f"a picture of {where}")
         print(f"{b.name} {where}: first picture after {b.call('return aspic.stats.firstPicture'):.0f} ms, "
               f"{b.call('return aspic.recording.rate'):.0f} steps a second")
-        actuated(b, where)
+        if job.get("inputs"):
+            require(inputs(b, where) == job["inputs"], f"{where}: has other sliders of inputs than {job['inputs']}")
+            headings = b.call("return [...document.querySelectorAll('#controls summary')].map((s) => s.textContent)")
+            require("inputs" in headings and "voxels worm" in headings, f"{where}: has the headings {headings}")
+        else:
+            actuated(b, where)
         if number == 0 and job.get("touch"):
             touch(b, where)
             nameless = b.call("return [...document.querySelectorAll('button, select, input')].filter((e) => "

@@ -76,6 +76,13 @@ TEST_P(LivePagesInBrowsers, ObeyTheReaderAndAskForNothing) {
          {"touch", true}});
 }
 
+TEST_P(LivePagesInBrowsers, HaveSlidersOfInputs) {
+  drive({{"pages",
+          {page_of({"worm", "--duration", "0.2", "--set", "actuator[0].signal=input", "--set",
+                    "actuator[0].name=legs"})}},
+         {"inputs", {"legs"}}});
+}
+
 TEST_P(LivePagesInBrowsers, SimulateEveryBuiltInScene) {
   json pages = json::array();
   // A driver has two minutes.

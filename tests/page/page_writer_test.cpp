@@ -31,9 +31,12 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 /// A run of a scene whose states are kept.
 struct Kept {
-  Kept(const std::string& name, const std::vector<std::string>& overrides, std::uint64_t steps)
+  Kept(const std::string& name, const std::vector<std::string>& overrides, std::uint64_t steps,
+       std::vector<double> channels = {})
       : scene(load_scene(name, overrides).value()), model(build_model(scene.model).value()) {
+    inputs.channels = std::move(channels);
     auto solver = make_reference_solver(model, Precision::single).value();
+    EXPECT_TRUE(solver->set_inputs(inputs).ok());
     for (std::uint64_t step = 0;; ++step) {
       states.push_back(solver->state().value());
       if (step == steps) break;
@@ -42,6 +45,7 @@ struct Kept {
   }
   Scene scene;
   Model model;
+  Inputs inputs;
   std::vector<State> states;  // of every step
 };
 
@@ -52,10 +56,13 @@ struct PageTest : testing::Test {
     const std::uint64_t last = run.states.size() - 1;
     auto sink = open_page(path, Overwrite::allow, run.scene, settings, 0, last);
     EXPECT_TRUE(sink.ok()) << sink.error().message();
-    EXPECT_TRUE((*sink)->take({run.model, run.states[0]}).ok());
+    const auto sample = [&](std::uint64_t step) {
+      return Sample{.model = run.model, .state = run.states[step], .inputs = &run.inputs};
+    };
+    EXPECT_TRUE((*sink)->take(sample(0)).ok());
     for (std::uint64_t step = (*sink)->next_step(0); step <= last; step = (*sink)->next_step(step))
-      EXPECT_TRUE((*sink)->take({run.model, run.states[step]}).ok());
-    EXPECT_TRUE((*sink)->finish({run.model, run.states[last]}).ok());
+      EXPECT_TRUE((*sink)->take(sample(step)).ok());
+    EXPECT_TRUE((*sink)->finish(sample(last)).ok());
     return read_file(path).value();
   }
   void expect_near(const test::ReadPage& page, std::size_t run, const Kept& kept) {
@@ -72,7 +79,7 @@ struct PageTest : testing::Test {
       EXPECT_LE(farthest(picture.spins, state.ball_angular_velocity),
                 0.5000001 * facts["spinQuantum"].get<double>());
       if (!facts["actuated"].empty()) {
-        EXPECT_LE(farthest(picture.changes, changes_of(kept.model, steps[f])),
+        EXPECT_LE(farthest(picture.changes, changes_of(kept.model, steps[f], kept.inputs.channels)),
                   0.5000001 * facts["changeQuantum"].get<double>());
       }
     }
@@ -96,6 +103,11 @@ TEST_F(PageTest, HoldsRestLengthsOfActuatedSprings) {
     EXPECT_NEAR(page.ends[0]["work"][f].get<double>(), done, 5e-6 * std::abs(done));
   }
   EXPECT_GT(page.ends[0]["work"].back().get<double>(), 0.0);
+  // Those that follow inputs.
+  const Kept steered("worm", {"actuator[0].signal=input", "actuator[0].ramp=0"}, 20, {0.5});
+  const test::ReadPage page_of_it = test::read_page(page_of(steered));
+  expect_near(page_of_it, 0, steered);
+  EXPECT_GT(page_of_it.pictures.back()[0].changes[0].x, 0.01);
 }
 
 TEST_F(PageTest, HoldsEveryPictureOfAFilmWithinHalfAQuantum) {

@@ -37,7 +37,9 @@ class LiveRecording extends Recording {
     this.live = this.facts.live;
     [this.run] = this.runs;
     this.times = this.run.times;
-    this.values = new Map(this.live.controls.flatMap((group) => group.rows.map((row) => [row.path, row.value])));
+    this.rows = this.live.controls.flatMap((group) => group.rows);
+    this.values = new Map(this.rows.map((row) => [row.path, row.value]));
+    this.inputs = this.rows.filter((row) => row.channel !== undefined);
     this.timestep = this.sceneTimestep = this.facts.runs[0].timestep;
     this.first = this.machine.steps[0] * this.timestep;
     this.last = (this.live.lastStep ?? this.machine.steps.at(-1)) * this.timestep;
@@ -139,7 +141,7 @@ class LiveRecording extends Recording {
 
   // From the start, with the values of the scene.
   create() {
-    for (const { rows } of this.live.controls) for (const row of rows) this.values.set(row.path, row.value);
+    for (const row of this.rows) this.values.set(row.path, row.value);
     this.applied = new Map(this.values);
     this.timestep = this.run.facts.timestep = this.sceneTimestep;
     this.run.keep(0);
@@ -163,8 +165,10 @@ class LiveRecording extends Recording {
     run.end.steps[at] = step;
     run.times[at] = step * this.timestep;
     if (changes.length > 0) this.changedFrom = Math.min(this.changedFrom, at);
-    const keys = changes.map(([path, value]) => `${path}=${valueText(value)}\n`).join("");
-    this.send({ command: "change", keys, state: { step, numbers: run.states[at] } }, step);
+    const ofScene = changes.filter(([path]) => !this.inputs.some((row) => row.path === path));
+    const keys = ofScene.map(([path, value]) => `${path}=${valueText(value)}\n`).join("");
+    const inputs = this.inputs.map((row) => this.applied.get(row.path));
+    this.send({ command: "change", keys, inputs, state: { step, numbers: run.states[at] } }, step);
   }
 
   // What the module refused of the last change, which a field let pass.

@@ -139,7 +139,7 @@ class LivePanel {
 // Where numbers lie on a slider, and which ones it has: all that are legal, where those are few; else about the scene's own.
 function spanOf(row, start) {
   const linear = (low, high) => ({ value: (s) => low + s * (high - low), place: (x) => clamp((x - low) / (high - low), 0, 1) });
-  if (row.max - row.min <= 1 && !row.above) return linear(row.min, row.max);
+  if (row.channel !== undefined || (row.max - row.min <= 1 && !row.above)) return linear(row.min, row.max);
   if (row.min < 0) return linear(Math.max(row.min, -2 * Math.max(10, Math.abs(start))), Math.min(row.max, 2 * Math.max(10, Math.abs(start))));
   if (row.unit === "" || start === 0) return linear(row.min, Math.min(row.max, Math.max(row.integer ? 10 : 1, 3 * start, row.unit === "" ? 0 : 100)));
   const low = Math.log(Math.max(start / 100, row.min)), high = Math.log(Math.min(start * 100, row.max));

@@ -28,7 +28,7 @@ function known(refused) {
   postMessage({ generation, refused, facts });
 }
 
-// Messages: create {keys, plan, state?}, change {keys, plan, state}; a state is {step, numbers}.
+// Messages: create {keys, plan, state?}, change {keys, inputs, plan, state}; a state is {step, numbers}.
 const commands = {
   load: ({ deflated }) => load(deflated),
   create({ keys, state }) {
@@ -38,8 +38,9 @@ const commands = {
     step = 0;
     if (state) enter(state);
   },
-  change({ keys, state }) {
+  change({ keys, inputs, state }) {
     enter(state);
+    new Float64Array(wasm.memory.buffer, wasm.inputs(inputs.length) >>> 0, inputs.length).set(inputs);
     give(keys);
     const refused = wasm.change() !== 0 ? answer() : undefined;
     if (refused) give("");
