@@ -137,7 +137,7 @@ TEST_F(Poses, PushIsTheGradientOfItsEnergy) {
   std::mt19937 random(1);
   const Field<double> v = Field<double>::Zero(3, 54);
   int poses = 0, compared = 0;
-  for (int trial = 0; trial < 300; ++trial) {
+  while (poses < 1000) {
     Field<double> x = pose(random);
     contact.begin_step(0, at(x, v));
     if (!contact.find(at(x, v))) continue;
@@ -172,8 +172,7 @@ TEST_F(Poses, PushIsTheGradientOfItsEnergy) {
       ++compared;
     }
   }
-  EXPECT_GT(poses, 100);
-  EXPECT_GT(compared, 300);
+  EXPECT_GT(compared, 2500);
 }
 
 /// A candidate by its definition.
