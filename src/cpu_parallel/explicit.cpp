@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cpu_parallel/contact_pieces.h"
+#include "cpu_parallel/touch_kernels.h"
 
 namespace aspic::parallel {
 namespace {
@@ -85,6 +86,7 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
 void ExplicitSteps::constants_changed() {
   known_ = false;
   bodies_ = bodies_touch(*model_) ? std::make_unique<reference::BodyContact<float>>(*model_) : nullptr;
+  if (bodies_) bodies_->set_look(look_side_by_side);
 }
 
 std::uint64_t ExplicitSteps::bytes() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cpu_parallel/springs.h"
+#include "cpu_parallel/touch_kernels.h"
 
 namespace aspic::parallel {
 namespace {
@@ -30,6 +31,7 @@ ImplicitTouch::ImplicitTouch(const Model& model, const FloatArray& inverse_mass,
       product_(vector_array(count_, slice)),
       end_(vector_array(count_, slice)) {
   for (FloatArray& each : blocks_) each = FloatArray(count_, slice);
+  contact_.set_look(look_side_by_side);
 }
 
 /// Nothing that the last contacts added is left.

@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::uint32_t nowhere = 0xffffffffu;
 
+/// Of lists of what is near, in spacings: larger ones take longer to make, and live longer.
+constexpr double near_slack = 0.5;
+
 template <class T>
 TouchConstants<T> rounded_pair(const TouchPair& exact, double ahead_step) {
   const TouchPair pair = ahead_step > 0.0 ? seen_ahead(exact, ahead_step) : exact;
@@ -35,6 +38,22 @@ Vector<T> over_own(const TouchPoint& point, const Value& value) {
   if (point.single()) return value(point.own[0]);
   return static_cast<T>(point.weight[0]) * value(point.own[0]) +
          static_cast<T>(point.weight[1]) * value(point.own[1]);
+}
+
+/// Whether a point touches a triangle as it sees it now, from either side and whatever else is near, neither
+/// now nor before it has gone by `way` [m] against each of its corners.
+template <class T>
+bool stays_off(const Sight<T>& seen, const Face<T>& face, bool closed, const TouchConstants<T>& pair, T way) {
+  if (!(seen.L - way > pair.sight)) return false;
+  if (!closed || seen.L - way > pair.depth) return true;
+  // Left is a touch from inside, for which −z has to become 0.7 L. With the corners its plane moves at the
+  // point's foot by κ·way, κ the sum of the foot's absolute barycentric coordinates, and N turns.
+  const T ab = norm3<T>(face.B - face.A), ac = norm3<T>(face.C - face.A), area = norm3<T>(face.g);
+  const T aside = std::sqrt(std::max(seen.L * seen.L - seen.z * seen.z, T(0)));
+  const T kappa = T(1) + T(4) * aside * (ab + ac) / area;
+  const T turn = T(4) * way * (ab + ac + T(2) * way) / area;
+  return seen.z + T(0.7) * seen.L >
+         std::abs(seen.z) * std::min(T(0.5) * turn * turn, T(2)) + way * (kappa + T(0.7));
 }
 
 template <class T>
@@ -64,13 +83,16 @@ template <class T>
 BodyContact<T>::BodyContact(const Model& model, double ahead_step)
     : surfaces_(touch_surfaces(model)),
       table_(model.contact, surfaces_.bodies, ahead_step),
-      near_(model, surfaces_),
+      near_(model, surfaces_, near_slack),
       h_(static_cast<T>(model.simulation.timestep)),
       rubs_(table_.rubs()),
       timestep_(model.simulation.timestep),
-      faces_(surfaces_),
+      normals_(surfaces_),
+      short_(surfaces_),
       places_(surfaces_.points.size()),
       place_of_(model.particle_count(), nowhere) {
+  for (std::uint32_t p = 0; p < surfaces_.points.size(); ++p)
+    if (surfaces_.points[p].single()) surface_.push_back({surfaces_.points[p].carrier[0], p});
   ease_apart(model, ahead_step > 0.0);
 }
 
@@ -99,66 +121,55 @@ void BodyContact<T>::ease_apart(const Model& model, bool ahead) {
 template <class T>
 bool BodyContact<T>::begin_step(std::uint64_t step, const Particles& start) {
   time_ = static_cast<T>(static_cast<double>(step) * timestep_);
-  for (std::size_t p = 0; p < surfaces_.points.size(); ++p) {
-    if (!surfaces_.points[p].single()) continue;
-    const Vector<T> x = start.position(surfaces_.points[p].carrier[0]);
-    places_[p] = {x.x(), x.y(), x.z()};
+  if (!near_holds(start)) {
+    bool close = !known_places_.empty();
+    known_places_.resize(surface_.size());
+    const T far = static_cast<T>(1.4 * near_.leeway());
+    for (std::size_t n = 0; n < surface_.size(); ++n) {
+      const Vector<T> x = start.position(surface_[n].particle), way = x - known_places_[n];
+      close = close && dot3<T>(way, way) <= far * far;
+      known_places_[n] = x;
+      places_[surface_[n].point] = {x.x(), x.y(), x.z()};
+    }
+    // Of what was not near, nothing has come as near as short lists reach if nothing has gone much further
+    // than the lists of what is near allow.
+    if (!close)
+      for (std::size_t n = 0; n < own_.size(); ++n) short_.begin(n, -1.0);
+    near_.make(places_);
+    list_used(start);
   }
-  if (near_.update(places_)) list_used();
   start_ = start;
   return !near_.encounters().empty();
 }
 
-/// Which triangles and normals the lists of what is near ask for.
+/// Whether no particle has moved too far for the lists of what is near.
 template <class T>
-void BodyContact<T>::list_used() {
-  all_near_.begin();
+bool BodyContact<T>::near_holds(const Particles& at) const {
+  if (known_places_.size() != surface_.size()) return false;
+  const T most = static_cast<T>(near_.leeway() * near_.leeway());
+  bool holds = true;
+  for (std::size_t n = 0; n < surface_.size(); ++n) {
+    const Vector<T> way = at.position(surface_[n].particle) - known_places_[n];
+    holds = holds && dot3<T>(way, way) <= most;
+  }
+  return holds;
+}
+
+/// Other encounters are near.
+template <class T>
+void BodyContact<T>::list_used(const Particles& at) {
   own_.clear();
-  NumberSet particles;
-  for (const Encounter& near : near_.encounters()) {
-    const TouchPoint& point = surfaces_.points[near.point];
-    all_near_.add(near_.triangles(near));
-    all_near_.add_carriers(point);
-    own_.push_back(body_of(near.point));
-    for (const std::uint32_t own : point.own) particles.add(own);
-  }
-  NumberSet corners;
-  for (const std::uint32_t t : all_near_.added())
-    for (const std::uint32_t corner : surfaces_.triangles[t].corner) corners.add(corner);
-  std::vector<std::array<std::uint32_t, 2>> followed;  // body, particle
-  for (const std::uint32_t own : particles.list())
-    followed.push_back({body_of(own), surfaces_.points[own].carrier[0]});
-  for (const std::uint32_t corner : corners.list()) followed.push_back({body_of_particle(corner), corner});
-  short_.reset(near_.encounters().size(), surfaces_.bodies.size(), std::move(followed));
-  all_near_.end(surfaces_);
-  few_stale_ = true;
+  for (const Encounter& near : near_.encounters()) own_.push_back(body_of(near.point));
+  short_.reset(near_, own_, at);
+  normals_.clear();
+  for (std::size_t n = 0; n < own_.size(); ++n) want(n);
+  normals_.sort();
 }
 
-/// The same for the short lists.
+/// What is made ahead for the short list of an encounter.
 template <class T>
-void BodyContact<T>::list_short() {
-  few_.begin();
-  for (std::size_t n = 0; n < near_.encounters().size(); ++n) {
-    const auto& list = short_[n];
-    if (list.count == 0) continue;
-    few_.add(std::span(list.triangle).first(list.count));
-    few_.add_carriers(surfaces_.points[near_.encounters()[n].point]);
-  }
-  few_.end(surfaces_);
-  few_stale_ = false;
-}
-
-/// Faces and normals of everything, or, where nearly all short lists hold, of what those ask for; the rest is
-/// made where something asks for it.
-template <class T>
-void BodyContact<T>::choose_faces(const Particles& at) {
-  short_.follow(at);
-  const auto encounters = near_.encounters();
-  std::size_t lost = 0;
-  for (std::size_t n = 0; n < encounters.size(); ++n) lost += !short_.holds(n, own_[n], encounters[n].body);
-  const bool few = 8 * lost < encounters.size();
-  if (few && few_stale_) list_short();
-  faces_.begin(few ? few_ : all_near_);
+void BodyContact<T>::want(std::size_t encounter) {
+  if (short_[encounter].count > 0) normals_.want(surfaces_.points[near_.encounters()[encounter].point]);
 }
 
 /// Whether the box of a triangle near a point holds it at the start of the step.
@@ -175,8 +186,65 @@ bool BodyContact<T>::is_candidate(const Encounter& near, std::uint32_t triangle)
 template <class T>
 void BodyContact<T>::find_in(std::size_t piece, const Particles& at) {
   pieces_[piece].touches.clear();
+  pieces_[piece].listed.clear();
   const std::size_t end = std::min(near_.encounters().size(), (piece + 1) * piece_size);
-  for (std::size_t n = piece * piece_size; n < end; ++n) touch(n, at, pieces_[piece]);
+  SightBatch<T> batch;
+  for (std::size_t n = piece * piece_size; n < end; ++n) {
+    const auto& list = short_[n];
+    if (list.count == 0 && short_.holds(n)) continue;
+    if (batch.count + list.count > SightBatch<T>::room) look(batch, pieces_[piece]);
+    pieces_[piece].queue.push_back(looker(n, at));
+    put(pieces_[piece].queue.back(), batch);
+    pieces_[piece].ends.push_back(batch.count);
+  }
+  look(batch, pieces_[piece]);
+}
+
+template <class T>
+typename BodyContact<T>::Looker BodyContact<T>::looker(std::size_t n, const Particles& at) const {
+  const Encounter& near = near_.encounters()[n];
+  const TouchPoint& point = surfaces_.points[near.point];
+  const bool opposing = surfaces_.bodies[near.body].closed && surfaces_.bodies[own_[n]].closed;
+  return {n,
+          near,
+          own_[n],
+          table_.at(own_[n], near.body),
+          opposing,
+          place<T>(point, at),
+          opposing ? over_own<T>(point, [&](std::uint32_t own) { return normals_.at(own, at); })
+                   : Vector<T>(Vector<T>::Zero()),
+          at};
+}
+
+/// The triangles of its short list are looked at; of one that does not hold, none.
+template <class T>
+void BodyContact<T>::put(const Looker& p, SightBatch<T>& batch) const {
+  const auto& list = short_[p.n];
+  if (!short_.holds(p.n)) return;
+  for (std::size_t n = 0; n < list.count; ++n, ++batch.count) {
+    const auto& corner = surfaces_.triangles[list.triangle[n]].corner;
+    for (std::size_t c = 0; c < 3; ++c) {
+      batch.P[c][batch.count] = p.P[static_cast<Eigen::Index>(c)];
+      batch.N_P[c][batch.count] = p.N[static_cast<Eigen::Index>(c)];
+      batch.corner[c][batch.count] = static_cast<std::int32_t>(corner[c]);
+    }
+    batch.opposing[batch.count] = p.opposing ? T(1) : T(0);
+  }
+}
+
+/// Finds the contacts of those in the queue, and empties it.
+template <class T>
+void BodyContact<T>::look(SightBatch<T>& batch, Piece& piece) {
+  if (piece.queue.empty()) return;
+  if (batch.count > 0) look_(piece.queue.front().at, batch);
+  for (std::size_t n = 0; n < piece.queue.size(); ++n) {
+    const Looker& p = piece.queue[n];
+    if (!look_at_few(p, batch, n > 0 ? piece.ends[n - 1] : 0, piece.sights)) look_at_all(p, piece);
+    touch(p, piece);
+  }
+  piece.queue.clear();
+  piece.ends.clear();
+  batch.count = 0;
 }
 
 template <class T>
@@ -184,7 +252,7 @@ bool BodyContact<T>::gather() {
   touches_.clear();
   for (std::size_t n = 0; n < pieces_of(near_.encounters().size()); ++n) {
     touches_.insert(touches_.end(), pieces_[n].touches.begin(), pieces_[n].touches.end());
-    few_stale_ = few_stale_ || std::exchange(pieces_[n].lists_changed, false);
+    for (const std::size_t listed : pieces_[n].listed) want(listed);
   }
   name_particles();
   return !touches_.empty();
@@ -215,75 +283,92 @@ bool BodyContact<T>::counts(const Face<T>& face, const Looker& p) const {
   return face.real && (!p.opposing || dot3<T>(p.N, face.g) < T(0));
 }
 
-/// Fills in `sights` from the short list. Returns false if it does not hold.
+/// More than distances are wrong by [m].
 template <class T>
-bool BodyContact<T>::look_at_few(const Looker& p, std::vector<Sight<T>>& sights) const {
-  if (!short_.holds(p.n, p.own, p.near.body)) return false;
-  const auto& list = short_[p.n];
-  bool nearest_counts = list.nearest == short_.none;
-  sights.clear();
-  Face<T> room;
-  for (std::uint32_t n = 0; n < list.count; ++n) {
-    const std::uint32_t t = list.triangle[n];
-    const Face<T>& f = faces_.face(t, p.at, room);
-    if (!counts(f, p)) continue;
-    sights.push_back(sight_of<T>(t, surfaces_.triangles[t].side, f, p.P));
-    nearest_counts = nearest_counts || t == list.nearest;
-  }
-  return nearest_counts;
+T BodyContact<T>::pad(const TouchConstants<T>& pair) const {
+  return T(0.002) * pair.s + static_cast<T>(near_.pad());
 }
 
-/// The same from all that is near. What is farther than `far` [m] touches nothing. Then makes the short list:
-/// with β the way that bodies may go, no triangle comes nearer than by β, so that only those may become the
-/// nearest that are no farther than 2β more than it, and only those second sides that are within β of their
-/// reach.
+/// Triangles farther than this [m] change nothing for a point whose nearest is `least` away.
+template <class T>
+T BodyContact<T>::enough(std::optional<T> least, const TouchConstants<T>& pair) const {
+  const T touching = std::max(pair.sight, pair.depth) + pair.tie;
+  return (least && *least <= touching ? std::max(*least, pair.sight) + pair.tie : touching) + pad(pair);
+}
+
+/// Fills in `sights` with what may matter from the short list, which the batch has from here on. Returns
+/// false if it does not hold.
+template <class T>
+bool BodyContact<T>::look_at_few(const Looker& p, const SightBatch<T>& batch, std::size_t from,
+                                 std::vector<Sight<T>>& sights) const {
+  sights.clear();
+  if (!short_.holds(p.n)) return false;
+  const auto& list = short_[p.n];
+  std::optional<T> least;
+  for (std::size_t n = 0; n < list.count; ++n)
+    if (batch.counts[from + n] && (!least || batch.L[from + n] < *least)) least = batch.L[from + n];
+  const T matters = enough(least, p.pair);
+  if (!(list.bound - short_.way(p.n) > static_cast<double>(matters))) return false;
+  for (std::size_t n = 0; n < list.count; ++n)
+    if (batch.counts[from + n] && batch.L[from + n] <= matters)
+      sights.push_back(batch.sight(from + n, list.triangle[n], surfaces_.triangles[list.triangle[n]].side));
+  return true;
+}
+
+/// The same from all that is near. Then makes the short list, of the triangles that may come to matter before
+/// the zone has gone by some way.
 template <class T>
 void BodyContact<T>::look_at_all(const Looker& p, Piece& piece) {
-  const T way = T(0.025) * p.pair.s, slack = T(0.002) * p.pair.s;
-  const T far = std::max(p.pair.sight, p.pair.depth) + T(0.01) * p.pair.s;
+  const T way = T(0.2) * p.pair.s, pad = this->pad(p.pair);
+  const T far = enough(std::nullopt, p.pair) + way;
   std::vector<Sight<T>>&sights = piece.sights, &around = piece.around;
   sights.clear();
   around.clear();
-  auto& list = short_.begin(p.n, p.own, p.near.body, static_cast<double>(way));
-  Face<T> room;
+  // No longer than that every triangle of the list is a candidate.
+  auto& list = short_.begin(p.n, static_cast<double>(way));
+  bool lasts = true;
+  T idle = way;  // touches nothing until it has gone by this; most points do not
+  const bool closed = surfaces_.bodies[p.near.body].closed;
   for (const std::uint32_t t : near_.triangles(p.near)) {
-    const Face<T>& f = faces_.face(t, p.at, room);
-    if (beyond<T>(f, far + way + slack, p.P)) continue;
-    if (!f.real) list.until = -1.0;  // it may get an area
-    if (!f.real) continue;
-    around.push_back(sight_of<T>(t, surfaces_.triangles[t].side, f, p.P));
-    if (counts(f, p) && is_candidate(p.near, t)) sights.push_back(around.back());
+    const auto& corner = surfaces_.triangles[t].corner;
+    const Vector<T> A = p.at.position(corner[0]), B = p.at.position(corner[1]), C = p.at.position(corner[2]);
+    if (beyond<T>(A, B, C, far, p.P)) continue;
+    const Face<T> face = face_of<T>(A, B, C);
+    if (!face.real) lasts = false;  // it may get an area
+    if (!face.real) continue;
+    around.push_back(sight_of<T>(t, surfaces_.triangles[t].side, face, p.P));
+    while (idle > T(0) && !stays_off<T>(around.back(), face, closed, p.pair, idle + pad))
+      idle = idle > T(0.04) * p.pair.s ? T(0.5) * idle : T(0);
+    if (counts(face, p) && is_candidate(p.near, t)) sights.push_back(around.back());
+  }
+  piece.listed.push_back(p.n);
+  if (idle > T(0)) {
+    list.spare = lasts ? std::min(static_cast<double>(idle) - short_.way(p.n), list.spare) : -1.0;
+    return;
   }
   const Sight<T>* const first = nearest_of<T>(sights, p.pair.tie, [](const Sight<T>&) { return true; });
-  if (first) list.nearest = first->triangle;
-  const T most = first ? std::max(first->L + T(2) * way, p.pair.sight + way) + slack : far + way + slack;
-  for (const Sight<T>& seen : around) {
-    if (seen.L > most) continue;
-    short_.add(list, seen.triangle);
-    if (!is_candidate(p.near, seen.triangle)) list.until = -1.0;  // it came within this step
+  piece.by_distance.clear();
+  for (std::uint32_t n = 0; n < around.size(); ++n)
+    if (around[n].L <= far) piece.by_distance.push_back({around[n].L, n});
+  std::ranges::sort(piece.by_distance);
+  const T most = enough(first ? std::optional(first->L) : std::nullopt, p.pair) + way;
+  for (const auto& [L, n] : piece.by_distance) {
+    if (L > most || list.count == short_.most) break;
+    const std::uint32_t t = around[n].triangle;
+    list.triangle[list.count++] = t;
+    if (!is_candidate(p.near, t)) lasts = false;  // it came within this step
   }
-  piece.lists_changed = true;
+  const bool all = list.count == piece.by_distance.size();
+  const double bound = static_cast<double>(all ? far : piece.by_distance[list.count].first);
+  list.bound = bound - short_.way(p.n);
+  if (!lasts) list.spare = -1.0;
+  std::sort(list.triangle.begin(), list.triangle.begin() + list.count);
 }
 
-/// The contacts of a point with a body: the first, then second sides.
+/// The contacts of a point with a body, from what it sees: the first, then second sides.
 template <class T>
-void BodyContact<T>::touch(std::size_t n, const Particles& at, Piece& piece) {
-  const Encounter& near = near_.encounters()[n];
-  const bool listed = short_.holds(n, own_[n], near.body);
-  if (listed && short_[n].count == 0) return;
-  const TouchPoint& point = surfaces_.points[near.point];
-  const bool closed = surfaces_.bodies[near.body].closed;
-  const bool opposing = closed && surfaces_.bodies[own_[n]].closed;
-  const Looker p = {n,
-                    near,
-                    own_[n],
-                    table_.at(own_[n], near.body),
-                    opposing,
-                    place<T>(point, at),
-                    opposing ? over_own<T>(point, [&](std::uint32_t own) { return faces_.normal(own, at); })
-                             : Vector<T>(Vector<T>::Zero()),
-                    at};
-  if (!look_at_few(p, piece.sights)) look_at_all(p, piece);
+void BodyContact<T>::touch(const Looker& p, Piece& piece) const {
+  const bool closed = surfaces_.bodies[p.near.body].closed;
   const Sight<T>* const first = nearest_of<T>(piece.sights, p.pair.tie, [](const Sight<T>&) { return true; });
   if (!first) return;
   const auto gap =
@@ -348,10 +433,10 @@ void BodyContact<T>::name_particles() {
     for (const std::uint32_t p : touch.particle) place_of_[p] = 0;
   // Points of particles are in the order of these.
   if (!touches_.empty()) {
-    for (const TouchPoint& point : surfaces_.points) {
-      if (!point.single() || place_of_[point.carrier[0]] == nowhere) continue;
-      place_of_[point.carrier[0]] = static_cast<std::uint32_t>(particles_.size());
-      particles_.push_back(point.carrier[0]);
+    for (const auto& [particle, point] : surface_) {
+      if (place_of_[particle] == nowhere) continue;
+      place_of_[particle] = static_cast<std::uint32_t>(particles_.size());
+      particles_.push_back(particle);
     }
   }
   for (Touch<T>& touch : touches_)

@@ -6,14 +6,16 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cpu_reference/ball_particles.h"
 #include "cpu_reference/near_triangles.h"
-#include "cpu_reference/touch_faces.h"
 #include "cpu_reference/touch_geometry.h"
+#include "cpu_reference/touch_normals.h"
 #include "cpu_reference/touch_rule.h"
 #include "cpu_reference/touch_shortlists.h"
+#include "cpu_reference/touch_sights.h"
 #include "model/touch_surface.h"
 
 namespace aspic::reference {
@@ -78,14 +80,16 @@ class BodyContact {
   /// The same on many threads: run(count, task) calls task(n) for n below count, in any order.
   template <class Run>
   bool find(const Particles& at, const Run& run) {
-    choose_faces(at);
-    run(faces_.pieces(), [&](std::size_t n) { faces_.prepare(n, at); });
-    faces_.prepare_normals();
+    short_.follow(at, run);
+    normals_.make(at, run);
     const std::size_t pieces = pieces_of(near_.encounters().size());
     pieces_.resize(std::max(pieces_.size(), pieces));
     run(pieces, [&](std::size_t n) { find_in(n, at); });
     return gather();
   }
+  /// How what is seen is computed, to the same bits as look_one_by_one().
+  using Look = void (*)(const Particles&, SightBatch<T>&);
+  void set_look(Look look) { look_ = look; }
   /// With an ahead_step: whether find() looks where the step may end, not where it begins.
   void set_at_end(bool on) { at_end_ = on; }
   /// Those of find(), ascending by point, body of the triangle, and first contact before second sides.
@@ -126,19 +130,6 @@ class BodyContact {
  private:
   void ease_apart(const Model& model, bool ahead);
   bool is_candidate(const Encounter& near, std::uint32_t triangle) const;
-  /// What one task of find() works with.
-  struct Piece {
-    std::vector<Sight<T>> sights, around;
-    std::vector<Touch<T>> touches;
-    bool lists_changed = false;
-  };
-  static constexpr std::size_t piece_size = 256;
-  static std::size_t pieces_of(std::size_t count) { return (count + piece_size - 1) / piece_size; }
-  void list_used();
-  void list_short();
-  void choose_faces(const Particles& at);
-  void find_in(std::size_t piece, const Particles& at);
-  bool gather();
   /// A point and a body, in the middle of a find().
   struct Looker {
     std::size_t n;  // of the encounter
@@ -149,10 +140,32 @@ class BodyContact {
     Vector<T> P, N;  // the point and, where only faces count that turn to it, its normal
     const Particles& at;
   };
+  /// What one task of find() works with.
+  struct Piece {
+    std::vector<Looker> queue;      // whose listed triangles are looked at together
+    std::vector<std::size_t> ends;  // where those of each end in the batch
+    std::vector<Sight<T>> sights, around;
+    std::vector<std::pair<T, std::uint32_t>> by_distance;  // of those around
+    std::vector<Touch<T>> touches;
+    std::vector<std::size_t> listed;  // encounters whose short lists are new
+  };
+  static constexpr std::size_t piece_size = 256;
+  static std::size_t pieces_of(std::size_t count) { return (count + piece_size - 1) / piece_size; }
+  bool near_holds(const Particles& at) const;
+  void list_used(const Particles& at);
+  void want(std::size_t encounter);
+  void find_in(std::size_t piece, const Particles& at);
+  bool gather();
   bool counts(const Face<T>& face, const Looker& p) const;
-  bool look_at_few(const Looker& p, std::vector<Sight<T>>& sights) const;
+  T pad(const TouchConstants<T>& pair) const;
+  T enough(std::optional<T> least, const TouchConstants<T>& pair) const;
+  Looker looker(std::size_t encounter, const Particles& at) const;
+  void put(const Looker& p, SightBatch<T>& batch) const;
+  void look(SightBatch<T>& batch, Piece& piece);
+  bool look_at_few(const Looker& p, const SightBatch<T>& batch, std::size_t from,
+                   std::vector<Sight<T>>& sights) const;
   void look_at_all(const Looker& p, Piece& piece);
-  void touch(std::size_t encounter, const Particles& at, Piece& piece);
+  void touch(const Looker& p, Piece& piece) const;
   void add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap, Piece& piece) const;
   void name_particles();
   void find_friction();
@@ -168,16 +181,19 @@ class BodyContact {
   bool rubs_;  // any pair has friction
   double timestep_;
   bool at_end_ = false;
+  Look look_ = look_one_by_one<T>;
   std::vector<Eased> eased_;  // ascending by point and body
   T time_ = T(0);             // since the initial state [s]
   std::optional<Particles> start_;
-  // Of all that is near, and of what the short lists ask for.
-  WantedFaces all_near_, few_;
-  bool few_stale_ = true;
-  TouchFaces<T> faces_;
+  TouchNormals<T> normals_;
   TouchShortlists<T> short_;
   std::vector<std::uint32_t> own_;  // by encounter: the point's body
-  std::vector<Vec3> places_;
+  struct SurfaceParticle {
+    std::uint32_t particle, point;
+  };
+  std::vector<SurfaceParticle> surface_;  // ascending by both
+  std::vector<Vector<T>> known_places_;   // of these, when the lists of what is near were made
+  std::vector<Vec3> places_;              // by point
   std::vector<Piece> pieces_;
   std::vector<Touch<T>> touches_;
   std::vector<std::uint32_t> particles_, place_of_;

@@ -11,6 +11,72 @@ double component(const Vec3& v, std::size_t axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
+/// Boxes halved again and again, so that finding all pairs that meet takes time in proportion to them, but
+/// for a logarithm, however boxes lie and whatever their sizes.
+class BoxTree {
+ public:
+  explicit BoxTree(const std::vector<Bounds>& boxes) : boxes_(boxes), order_(boxes.size()) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    nodes_.reserve(2 * boxes.size());
+    if (!boxes.empty()) split(0, boxes.size());
+  }
+  /// Calls use(n) for those that meet a box widened by `margin`.
+  template <class Use>
+  void meeting(const Bounds& box, double margin, const Use& use) const {
+    if (!nodes_.empty()) meeting(0, 0, boxes_.size(), box, margin, use);
+  }
+
+ private:
+  static constexpr std::size_t leaf = 4;  // boxes of a part that is not halved
+  struct Node {
+    Bounds box;
+    std::size_t second = 0;  // node of the second half; that of the first comes next
+  };
+  static std::size_t half(std::size_t first, std::size_t end) { return first + (end - first) / 2; }
+
+  std::size_t split(std::size_t first, std::size_t end) {
+    const std::size_t node = nodes_.size();
+    nodes_.emplace_back();
+    for (std::size_t n = first; n < end; ++n) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        Bounds& box = nodes_[node].box;
+        box.min[c] = std::min(box.min[c], boxes_[order_[n]].min[c]);
+        box.max[c] = std::max(box.max[c], boxes_[order_[n]].max[c]);
+      }
+    }
+    if (end - first <= leaf) return node;
+    std::size_t longest = 0;
+    const auto extent = [&](std::size_t c) { return nodes_[node].box.max[c] - nodes_[node].box.min[c]; };
+    for (const std::size_t c : {1u, 2u})
+      if (extent(c) > extent(longest)) longest = c;
+    const auto at = [&](std::size_t n) { return order_.begin() + static_cast<std::ptrdiff_t>(n); };
+    std::ranges::nth_element(at(first), at(half(first, end)), at(end), {}, [&](std::uint32_t n) {
+      const double middle = boxes_[n].min[longest] + boxes_[n].max[longest];
+      return std::pair(std::isfinite(middle) ? middle : 0.0, n);
+    });
+    split(first, half(first, end));
+    const std::size_t second = split(half(first, end), end);
+    nodes_[node].second = second;
+    return node;
+  }
+  template <class Use>
+  void meeting(std::size_t node, std::size_t first, std::size_t end, const Bounds& box, double margin,
+               const Use& use) const {
+    if (!nodes_[node].box.meets(box, margin)) return;
+    if (end - first > leaf) {
+      meeting(node + 1, first, half(first, end), box, margin, use);
+      meeting(nodes_[node].second, half(first, end), end, box, margin, use);
+      return;
+    }
+    for (std::size_t n = first; n < end; ++n)
+      if (boxes_[order_[n]].meets(box, margin)) use(order_[n]);
+  }
+
+  const std::vector<Bounds>& boxes_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;  // a part before its halves
+};
+
 /// No pair of the body has a larger margin [m].
 double margin_of(const ContactSettings& contact, const TouchBody& body) {
   TouchBody open = body;
@@ -98,14 +164,14 @@ void TriangleGrid::near(const Vec3& place, double margin, std::vector<std::uint3
   std::sort(found.begin() + before, found.end());
 }
 
-NearTriangles::NearTriangles(const Model& model, const TouchSurfaces& surfaces)
+NearTriangles::NearTriangles(const Model& model, const TouchSurfaces& surfaces, double slack)
     : surfaces_(surfaces), contact_(model.contact), slack_(std::numeric_limits<double>::infinity()) {
   std::vector<std::uint32_t> point_of(model.particle_count());
   for (std::uint32_t p = 0; p < surfaces.points.size(); ++p)
     if (surfaces.points[p].single()) point_of[surfaces.points[p].carrier[0]] = p;
   for (const TouchTriangle& t : surfaces.triangles)
     corners_.push_back({point_of[t.corner[0]], point_of[t.corner[1]], point_of[t.corner[2]]});
-  for (const TouchBody& body : surfaces.bodies) slack_ = std::min(slack_, 0.25 * body.spacing);
+  for (const TouchBody& body : surfaces.bodies) slack_ = std::min(slack_, slack * body.spacing);
   boxes_.resize(surfaces.triangles.size());
   if (!contact_.self) return;
   for (const TouchPoint& point : surfaces.points) {
@@ -114,26 +180,9 @@ NearTriangles::NearTriangles(const Model& model, const TouchSurfaces& surfaces)
   }
 }
 
-bool NearTriangles::update(std::span<const Vec3> places) {
-  if (still_valid(places)) return false;
-  make(places);
-  return true;
-}
-
 void NearTriangles::make(std::span<const Vec3> places) {
   built_.assign(places.begin(), places.end());
   build();
-}
-
-bool NearTriangles::still_valid(std::span<const Vec3> places) const {
-  if (built_.size() != places.size()) return false;
-  const double most = leeway() * leeway();
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    if (!surfaces_.points[p].single()) continue;
-    const Vec3 way = places[p] - built_[p];
-    if (!(dot(way, way) <= most)) return false;
-  }
-  return true;
 }
 
 Vec3 NearTriangles::place_of(std::uint32_t point, std::span<const Vec3> places) const {
@@ -186,22 +235,19 @@ double NearTriangles::most_margin() const {
 /// Pairs of bodies whose boxes are near, by body of triangles.
 void NearTriangles::find_partners(const std::vector<Bounds>& around) {
   partners_.clear();
-  std::vector<std::uint32_t> order(around.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, {}, [&](std::uint32_t b) { return around[b].min[0]; });
-  const double widest = most_margin();
-  for (std::size_t n = 0; n < order.size(); ++n) {
-    const std::uint32_t a = order[n];
-    if (contact_.self) partners_.push_back({a, a});
-    if (!contact_.bodies) continue;
-    for (std::size_t m = n + 1; m < order.size(); ++m) {
-      const std::uint32_t b = order[m];
-      if (around[b].min[0] > around[a].max[0] + widest + slack_ + pad_) break;
-      const double margin =
-          touch_pair(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false).margin + slack_ + pad_;
-      if (!around[a].meets(around[b], margin)) continue;
-      partners_.push_back({a, b});
-      partners_.push_back({b, a});
+  for (std::uint32_t a = 0; contact_.self && a < around.size(); ++a) partners_.push_back({a, a});
+  if (contact_.bodies) {
+    const BoxTree tree(around);
+    const double widest = most_margin() + slack_ + pad_;
+    for (std::uint32_t a = 0; a < around.size(); ++a) {
+      tree.meeting(around[a], widest, [&](std::uint32_t b) {
+        if (b <= a) return;
+        const double margin =
+            touch_pair(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false).margin + slack_ + pad_;
+        if (!around[a].meets(around[b], margin)) return;
+        partners_.push_back({a, b});
+        partners_.push_back({b, a});
+      });
     }
   }
   std::ranges::sort(partners_);

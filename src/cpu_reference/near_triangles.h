@@ -53,18 +53,18 @@ class TriangleGrid {
 
 class NearTriangles {
  public:
-  /// `surfaces` must outlive it.
-  NearTriangles(const Model& model, const TouchSurfaces& surfaces);
+  /// `surfaces` must outlive it. `slack`: in spacings; half of it is how far particles may move until the
+  /// lists have to be made again.
+  NearTriangles(const Model& model, const TouchSurfaces& surfaces, double slack = 0.25);
 
-  /// Particles of points are at these places now, by point; of those on edges nothing is asked. Returns
-  /// whether the lists were made again.
-  bool update(std::span<const Vec3> places);
-  /// The same, and makes the lists again whatever has moved.
+  /// Makes the lists for particles of points at these places, by point; of those on edges nothing is asked.
   void make(std::span<const Vec3> places);
   /// The largest margin of any pair of bodies [m].
   double most_margin() const;
   /// How far a particle may be from where it was when the lists were made [m].
   double leeway() const { return 0.5 * slack_; }
+  /// More than rounding of places in single precision can amount to [m].
+  double pad() const { return pad_; }
   /// Ascending by point, then by body.
   std::span<const Encounter> encounters() const { return encounters_; }
   /// Of one of them, ascending.
@@ -74,7 +74,6 @@ class NearTriangles {
   std::uint64_t bytes() const;
 
  private:
-  bool still_valid(std::span<const Vec3> places) const;
   void build();
   void find_partners(const std::vector<Bounds>& around);
   void meet(std::uint32_t a, std::uint32_t b);

@@ -51,18 +51,17 @@ Vector<T> area_normal(const Vector<T>& A, const Vector<T>& B, const Vector<T>& C
 template <class T>
 struct Face {
   Vector<T> A, B, C;
-  Vector<T> low, high;  ///< of its box
-  Vector<T> g;          ///< area normal [m²]
-  Vector<T> N;          ///< unit normal, where `real`
-  bool real = false;    ///< it has an area
+  Vector<T> g;        ///< area normal [m²]
+  Vector<T> N;        ///< unit normal, where `real`
+  bool real = false;  ///< it has an area
 };
 
 template <class T>
 Face<T> face_of(const Vector<T>& A, const Vector<T>& B, const Vector<T>& C) {
-  Face<T> face = {A,  B, C, A.cwiseMin(B).cwiseMin(C), A.cwiseMax(B).cwiseMax(C), area_normal<T>(A, B, C),
-                  {}, {}};
-  face.real = dot3<T>(face.g, face.g) > T(0);
-  if (face.real) face.N = (T(1) / norm3<T>(face.g)) * face.g;
+  Face<T> face = {A, B, C, area_normal<T>(A, B, C), {}, false};
+  const T square = dot3<T>(face.g, face.g);
+  face.real = square > T(0);
+  if (face.real) face.N = (T(1) / std::sqrt(square)) * face.g;
   return face;
 }
 
@@ -74,12 +73,16 @@ bool box_holds(const Vector<T>& low, const Vector<T>& high, T margin, const Vect
   return true;
 }
 
-/// Whether a face's box, and so the face, is farther than `far` [m] from P.
+/// Whether a triangle's box, and so the triangle, is farther than `far` [m] from P.
 template <class T>
-bool beyond(const Face<T>& face, T far, const Vector<T>& P) {
-  Vector<T> away;
-  for (Eigen::Index c = 0; c < 3; ++c) away[c] = std::max({face.low[c] - P[c], P[c] - face.high[c], T(0)});
-  return dot3<T>(away, away) > far * far;
+bool beyond(const Vector<T>& A, const Vector<T>& B, const Vector<T>& C, T far, const Vector<T>& P) {
+  T square = T(0);
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const T below = std::min({A[c], B[c], C[c]}) - P[c], above = P[c] - std::max({A[c], B[c], C[c]});
+    const T away = std::max({below, above, T(0)});
+    square += away * away;
+  }
+  return square > far * far;
 }
 
 /// A triangle as a point P sees it.

@@ -1,114 +1,225 @@
 #pragma once
 // Which of the triangles near a point may matter to it for a while: those that cannot come near enough before
-// bodies have moved by a certain way are left out. Where bodies rest on each other, a look at a point is a
-// look at a few triangles. Generous: nothing in a state depends on it.
+// bodies have moved by a certain way against each other are left out. Where bodies rest on each other, or
+// move together, a look at a point is a look at a few triangles. Generous: nothing in a state depends on it.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "aspic/vec.h"
 #include "cpu_reference/ball_particles.h"
+#include "cpu_reference/near_triangles.h"
+#include "cpu_reference/number_set.h"
+#include "model/touch_surface.h"
 
 namespace aspic::reference {
 
+/// Encounters near each other are a zone, for which the way is measured that any of its points has gone
+/// against any triangle near one of them: what they go together does not count. So lists live by what happens
+/// about them.
 template <class T>
 class TouchShortlists {
  public:
   static constexpr std::size_t most = 14;
   struct List {
-    double until = -1.0;      ///< holds while both bodies have strained no more than this [m],
-    Vec3 apart;               ///< and while they have not moved otherwise against each other [m]
+    double spare = -1.0;      ///< holds while the zone's way is no more than this [m]
+    double bound = 0.0;       ///< triangles that are left out are no nearer than this less the way [m]
     std::uint32_t count = 0;  ///< of triangles
-    std::uint32_t nearest;    ///< the list holds only while this one counts for the point; or `none`
     std::array<std::uint32_t, most> triangle;  ///< ascending
   };
-  static constexpr std::uint32_t none = 0xffffffffu;
 
-  /// For encounters of other points with other triangles; of particles it is asked where they go.
-  void reset(std::size_t encounters, std::size_t bodies,
-             std::vector<std::array<std::uint32_t, 2>> body_and_particle) {
-    lists_.assign(encounters, {});
-    bodies_.assign(bodies, {});
-    followed_ = std::move(body_and_particle);
-    places_.clear();
+  explicit TouchShortlists(const TouchSurfaces& surfaces) : surfaces_(surfaces) {}
+
+  /// For other encounters, of points of the bodies `own`, with particles at these places. Lists of encounters
+  /// that there were before live on.
+  void reset(const NearTriangles& near, std::span<const std::uint32_t> own, const ParticleView<const T>& at) {
+    measure_all(at);
+    std::vector<List> before = std::exchange(lists_, {});
+    std::vector<Encounter> known = std::exchange(encounters_, {});
+    const std::vector<std::uint32_t> zone_before = std::exchange(zone_, {});
+    const std::vector<Zone> zones_before = std::exchange(zones_, {});
+    encounters_.assign(near.encounters().begin(), near.encounters().end());
+    lists_.assign(encounters_.size(), {});
+    const auto key = [](const Encounter& e) { return std::tuple(e.point, e.body); };
+    std::size_t old = 0;
+    for (std::size_t n = 0; n < encounters_.size(); ++n) {
+      while (old < known.size() && key(known[old]) < key(encounters_[n])) ++old;
+      if (old == known.size() || key(known[old]) != key(encounters_[n])) continue;
+      lists_[n] = before[old];
+      wear(lists_[n], zones_before[zone_before[old]].way);
+    }
+    make_zones(near, own, at);
   }
 
-  /// Particles are at these places now.
-  void follow(const ParticleView<const T>& at) {
-    const bool known = !places_.empty();
-    places_.resize(followed_.size());
-    ways_.resize(followed_.size());
-    for (Body& body : bodies_) body.way = {}, body.count = 0, body.most = 0.0;
-    for (std::size_t n = 0; n < followed_.size(); ++n) {
-      const Vector<T> x = at.position(followed_[n][1]), way = x - places_[n];
-      ways_[n] = {way.x(), way.y(), way.z()};
-      places_[n] = x;
-      Body& body = bodies_[followed_[n][0]];
-      body.way = body.way + ways_[n];
-      ++body.count;
-    }
-    if (!known) return;
-    for (Body& body : bodies_) body.way = (1.0 / std::max(body.count, 1u)) * body.way;
-    for (std::size_t n = 0; n < followed_.size(); ++n) {
-      Body& body = bodies_[followed_[n][0]];
-      const Vec3 other = ways_[n] - body.way;
-      const double far = dot(other, other);
-      // What is no number has gone anywhere.
-      body.most = std::max(body.most, far <= nowhere ? far : nowhere);
-    }
-    for (Body& body : bodies_) {
-      body.gone = body.gone + body.way;
-      body.strained += 1.001 * std::sqrt(body.most);
-    }
+  /// Particles are at these places now; run(count, task) as in BodyContact::find().
+  template <class Run>
+  void follow(const ParticleView<const T>& at, const Run& run) {
+    const std::size_t pieces = (zones_.size() + zones_in_piece - 1) / zones_in_piece;
+    run(pieces, [&](std::size_t n) {
+      for (std::size_t z = n * zones_in_piece; z < std::min(zones_.size(), (n + 1) * zones_in_piece); ++z) {
+        Zone& zone = zones_[z];
+        zone.way = way_of(zone, at);
+        // Lists that are made from here on last longest if the way begins here.
+        if (8 * zone.lost > zone.encounters_end - zone.encounters_first || !(zone.way < nowhere))
+          renew(zone, at);
+      }
+    });
   }
 
-  bool holds(std::size_t encounter, std::uint32_t a, std::uint32_t b) const {
-    const List& list = lists_[encounter];
-    const double left = list.until - (bodies_[a].strained + bodies_[b].strained);
-    const Vec3 moved = (bodies_[a].gone - bodies_[b].gone) - list.apart;
-    return left >= 0.0 && dot(moved, moved) <= left * left;
-  }
+  /// How far points about this encounter have gone against triangles [m].
+  double way(std::size_t encounter) const { return zones_[zone_[encounter]].way; }
+  bool holds(std::size_t encounter) const { return way(encounter) <= lists_[encounter].spare; }
   const List& operator[](std::size_t encounter) const { return lists_[encounter]; }
 
-  /// Begins a list that holds while no particle of bodies a and b goes further than `way` [m] against one of
-  /// the other.
-  List& begin(std::size_t encounter, std::uint32_t a, std::uint32_t b, double way) {
+  /// Begins a list that holds, if nothing else is against it, while the zone goes no further than `spare`
+  /// [m].
+  List& begin(std::size_t encounter, double spare) {
+    std::atomic_ref(zones_[zone_[encounter]].lost).fetch_add(1, std::memory_order_relaxed);
     List& list = lists_[encounter];
-    list.until = bodies_[a].strained + bodies_[b].strained + way;
-    list.apart = bodies_[a].gone - bodies_[b].gone;
+    list.spare = spare - way(encounter);
     list.count = 0;
-    list.nearest = none;
     return list;
-  }
-  static void add(List& list, std::uint32_t triangle) {
-    if (list.count == most)
-      list.until = -1.0;
-    else
-      list.triangle[list.count++] = triangle;
   }
 
   std::uint64_t bytes() const {
-    return lists_.capacity() * sizeof(List) + bodies_.capacity() * sizeof(Body) +
-           followed_.capacity() * (sizeof(followed_[0]) + sizeof(Vector<T>) + sizeof(Vec3));
+    return lists_.capacity() * sizeof(List) + encounters_.capacity() * sizeof(Encounter) +
+           (zone_.capacity() + order_.capacity() + followed_.capacity()) * sizeof(std::uint32_t) +
+           zones_.capacity() * sizeof(Zone) + from_.capacity() * sizeof(from_[0]);
   }
 
  private:
   static constexpr double nowhere = std::numeric_limits<double>::infinity();
-  struct Body {
-    Vec3 gone;              ///< the way of its mean [m]
-    double strained = 0.0;  ///< how far any particle has gone at most against that [m]
-    Vec3 way;               ///< of the mean in this step [m]
-    double most = 0.0;      ///< the square of the farthest against it [m²]
-    std::uint32_t count = 0;
+  static constexpr std::size_t zones_in_piece = 16;
+  /// Edge of the cube that a zone's points lie in, in spacings.
+  static constexpr double zone_size = 3.0;
+  struct Zone {
+    std::uint32_t encounters_first = 0, encounters_end = 0;  // in order_
+    std::uint32_t corners = 0, carriers = 0, end = 0;        // where these begin in followed_
+    std::uint32_t lost = 0;                                  // lists made since the way began
+    double way = 0.0;
   };
-  std::vector<List> lists_;
-  std::vector<Body> bodies_;
-  std::vector<std::array<std::uint32_t, 2>> followed_;  // body, particle
-  std::vector<Vector<T>> places_;                       // where these were
-  std::vector<Vec3> ways_;
+
+  static std::array<T, 3> place(std::uint32_t particle, const ParticleView<const T>& at) {
+    const std::size_t n = particle * at.stride;
+    return {at.x[0][n], at.x[1][n], at.x[2][n]};
+  }
+  static void wear(List& list, double way) {
+    // What is no number has gone anywhere.
+    list.spare = way < nowhere ? list.spare - way : -1.0;
+    list.bound -= way;
+  }
+
+  /// What corners and carriers have gone lies in two boxes; no further than from one end to the other have
+  /// any two gone against each other.
+  double way_of(const Zone& zone, const ParticleView<const T>& at) const {
+    T sum = T(0);
+    const auto around = [&](std::uint32_t from, std::uint32_t end) {
+      std::array<T, 3> low, high;
+      low.fill(std::numeric_limits<T>::max());
+      high.fill(-std::numeric_limits<T>::max());
+      for (std::uint32_t n = from; n < end; ++n) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const T gone = at.x[c][followed_[n] * at.stride] - from_[n][c];
+          low[c] = gone < low[c] ? gone : low[c];
+          high[c] = gone > high[c] ? gone : high[c];
+          sum += gone;
+        }
+      }
+      return std::pair(low, high);
+    };
+    const auto [corner_low, corner_high] = around(zone.corners, zone.carriers);
+    const auto [carrier_low, carrier_high] = around(zone.carriers, zone.end);
+    if (!std::isfinite(sum)) return nowhere;  // what is no number has gone anywhere
+    Vec3 most;
+    double all = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      most[static_cast<int>(c)] = static_cast<double>(
+          std::max({corner_high[c] - carrier_low[c], carrier_high[c] - corner_low[c], T(0)}));
+      all = std::max(
+          {all, std::abs(static_cast<double>(corner_low[c])), std::abs(static_cast<double>(corner_high[c]))});
+    }
+    // Rounding of the differences above.
+    return 1.001 * length(most) + 1e-6 * all;
+  }
+
+  /// The way of a zone begins here.
+  void renew(Zone& zone, const ParticleView<const T>& at) {
+    for (std::uint32_t n = zone.encounters_first; n < zone.encounters_end; ++n)
+      wear(lists_[order_[n]], zone.way);
+    for (std::uint32_t n = zone.corners; n < zone.end; ++n) from_[n] = place(followed_[n], at);
+    zone.way = zone.lost = 0;
+  }
+  void measure_all(const ParticleView<const T>& at) {
+    for (Zone& zone : zones_) zone.way = way_of(zone, at);
+  }
+
+  void make_zones(const NearTriangles& near, std::span<const std::uint32_t> own,
+                  const ParticleView<const T>& at) {
+    using Key = std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>>;
+    std::vector<std::pair<Key, std::uint32_t>> keyed;
+    keyed.reserve(encounters_.size());
+    for (std::uint32_t n = 0; n < encounters_.size(); ++n) {
+      const Encounter& e = encounters_[n];
+      const Vector<T> x = at.position(surfaces_.points[e.point].carrier[0]);
+      const double size =
+          zone_size * std::max(surfaces_.bodies[own[n]].spacing, surfaces_.bodies[e.body].spacing);
+      std::array<std::int64_t, 3> cell = {};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double place = static_cast<double>(x[static_cast<Eigen::Index>(c)]) / size;
+        cell[c] = std::abs(place) < 1e15 ? static_cast<std::int64_t>(std::floor(place)) : 0;
+      }
+      keyed.push_back({{own[n], e.body, cell}, n});
+    }
+    std::ranges::sort(keyed);
+    zone_.resize(encounters_.size());
+    order_.clear();
+    followed_.clear();
+    for (std::size_t k = 0; k < keyed.size();) {
+      Zone zone;
+      zone.encounters_first = static_cast<std::uint32_t>(k);
+      zone.corners = static_cast<std::uint32_t>(followed_.size());
+      const Key& key = keyed[k].first;
+      for (; k < keyed.size() && keyed[k].first == key; ++k) {
+        const std::uint32_t n = keyed[k].second;
+        zone_[n] = static_cast<std::uint32_t>(zones_.size());
+        order_.push_back(n);
+        for (const std::uint32_t t : near.triangles(encounters_[n])) triangle_set_.add(t);
+        for (const std::uint32_t p : surfaces_.points[encounters_[n].point].carrier) carrier_set_.add(p);
+      }
+      zone.encounters_end = static_cast<std::uint32_t>(k);
+      for (const std::uint32_t t : triangle_set_.added())
+        for (const std::uint32_t p : surfaces_.triangles[t].corner) corner_set_.add(p);
+      const auto follow = [&](NumberSet& set) {
+        followed_.insert(followed_.end(), set.added().begin(), set.added().end());
+        set.clear();
+      };
+      triangle_set_.clear();
+      follow(corner_set_);
+      zone.carriers = static_cast<std::uint32_t>(followed_.size());
+      follow(carrier_set_);
+      zone.end = static_cast<std::uint32_t>(followed_.size());
+      zones_.push_back(zone);
+    }
+    from_.clear();
+    for (const std::uint32_t p : followed_) from_.push_back(place(p, at));
+  }
+
+  const TouchSurfaces& surfaces_;
+  std::vector<Encounter> encounters_;
+  std::vector<List> lists_;          // by encounter
+  std::vector<std::uint32_t> zone_;  // by encounter
+  std::vector<Zone> zones_;
+  std::vector<std::uint32_t> order_;     // encounters by zone
+  std::vector<std::uint32_t> followed_;  // particles by zone: corners of triangles, then carriers of points
+  std::vector<std::array<T, 3>> from_;   // where the ways of these begin
+  NumberSet triangle_set_, corner_set_, carrier_set_;
 };
 
 }  // namespace aspic::reference
