@@ -63,6 +63,9 @@ class ExplicitSolver final : public DeviceSolver {
   Status build_lattice_pass(KernelOptions kernels, std::uint32_t run, const std::vector<Binding>& bindings);
   void dispatch(const std::optional<SlicedPass>& pass, Kind kind, std::span<const SlicedArray> arrays,
                 ReadBy readers) const;
+  Status build_rest(const KernelOptions& kernels, std::vector<Binding> bindings);
+  void queue_rest(const TouchPasses::States& states, std::uint32_t step_index, std::uint32_t stage,
+                  ReadBy readers) const;
   void queue_step(std::uint32_t step_index, bool last_of_queue);
   Result<std::uint64_t> take_look();
   void forget_queues();
@@ -76,6 +79,8 @@ class ExplicitSolver final : public DeviceSolver {
 
   const Staged& method_;
   TouchPasses touch_passes_{touch_};
+  std::shared_ptr<const gl::Program> rest_program_;  // where stages are two passes
+  std::optional<gl::Pass> rest_pass_;
   Buffer sums_, control_, forces_;
   std::deque<Queue> queues_;
   std::optional<gl::ReadRing> looks_;  // the control words after each queue
@@ -129,9 +134,17 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                         seen_by_springs(*springs_)));
   }
   if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
-  ASPIC_CHECK(touch_passes_.build(context_, kernels, stage_kernels, {constants(), control},
-                                  {pulls_.binding(), poses_.binding()}));
-  if (touch_.any()) stage_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
+  ASPIC_CHECK(touch_passes_.build(context_, kernels, {constants(), control}));
+  if (touch_.any() || options.split_stages) {
+    ASPIC_CHECK(build_rest(stage_kernels, {constants(), control, pulls_.binding(), poses_.binding()}));
+    // Forces know nothing of terrain and method, so that many scenes share their kernels.
+    std::erase_if(stage_kernels.defines, [](const gl::Define& define) {
+      constexpr std::string_view of_the_rest[] = {"ASPIC_SHAPES", "ASPIC_ONE_TERRAIN", "ASPIC_MOTION",
+                                                  "ASPIC_ONE_STAGE"};
+      return std::ranges::find(of_the_rest, define.name) != std::end(of_the_rest);
+    });
+    stage_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
+  }
   const std::uint32_t by_device = context_.info().is_software ? software_run : 1;
   const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
   if (run > 1) stage_kernels.defines.push_back({"ASPIC_WIDE_LOADS", "1"});
@@ -150,6 +163,25 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   return balls_.build(context_, *model_, kernels,
                       {&simulation_, &control_, false, poses_.binding(), pulls_.binding()},
                       options.ball_search);
+}
+
+/// What follows the forces of springs, and of contact between bodies.
+Status ExplicitSolver::build_rest(const KernelOptions& kernels, std::vector<Binding> bindings) {
+  ASPIC_TRY(rest_program_,
+            context_.programs().compute(kernels.library, "compute/touch_finish.comp", kernels.defines));
+  rest_pass_.emplace(*rest_program_, std::move(bindings), ReadBy::compute_pass);
+  return {};
+}
+
+void ExplicitSolver::queue_rest(const TouchPasses::States& states, std::uint32_t step_index,
+                                std::uint32_t stage, ReadBy readers) const {
+  rest_program_->set(LOCATION_STEP, step_index);
+  rest_program_->set(LOCATION_STAGE, stage);
+  const std::array<Binding, 4> bindings = {{{BINDING_START_STATE, states.start},
+                                            {BINDING_STAGE_STATE, states.stage},
+                                            {BINDING_OUT_STATE, states.out},
+                                            {BINDING_STAGE_SUMS, &sums_}}};
+  rest_pass_->dispatch_for(model_->particle_count(), bindings, readers);
 }
 
 void ExplicitSolver::restart() {
@@ -184,7 +216,7 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
       if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
     if (spring_pass_ && lengths_.any()) spring_pass_->program().set(LOCATION_STAGE, s);
     constexpr std::uint64_t particle = sizeof(layout::Particle), force = sizeof(layout::vec4);
-    const TouchPasses::States touching = {&states_[current_], &states_[stage_state], &states_[out], &sums_};
+    const TouchPasses::States touching = {&states_[current_], &states_[stage_state], &states_[out]};
     if (touch_.any()) touch_passes_.queue_find(touching, step_index, time_of(step_index));
     const SlicedArray stage = {BINDING_STAGE_STATE, &states_[stage_state], Over::particles, particle};
     const std::array<SlicedArray, 6> arrays = {
@@ -202,10 +234,11 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     const bool leaves = last_of_queue && s + 1 == stages && !balls_.any();
     const ReadBy readers = leaves ? anyone : ReadBy::compute_pass;
     // Cubes and all else write different particles.
-    const ReadBy after = touch_.any() ? ReadBy(ReadBy::compute_pass) : readers;
+    const ReadBy after = rest_pass_ ? ReadBy(ReadBy::compute_pass) : readers;
     dispatch(lattice_pass_, lattices_kind, arrays, particle_pass_ ? ReadBy::nobody : after);
     dispatch(particle_pass_, particles_kind, arrays, after);
-    if (touch_.any()) touch_passes_.queue_act(touching, step_index, s, readers);
+    if (touch_.any()) touch_passes_.queue_act(touching, step_index);
+    if (rest_pass_) queue_rest(touching, step_index, s, readers);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_slot_,

@@ -32,6 +32,10 @@ struct GpuOptions {
   /// read a neighbour once for several, and 1 on hardware, whose lanes then read neighbouring particles.
   /// Never affects the bits.
   std::uint32_t lattice_run = 0;
+  /// Stages of explicit methods in two passes, forces and the rest, as where bodies touch: scenes on other
+  /// terrain then share the kernels of forces, which drivers compile for seconds, and steps are slower. A
+  /// state must fit into a storage block. Never affects the bits.
+  bool split_stages = false;
   /// fast: spring forces of explicit methods with reciprocal roots and fused operations, as the device likes.
   Arithmetic spring_arithmetic = Arithmetic::exact;
   BallSearch ball_search = BallSearch::automatic;

@@ -12,13 +12,12 @@ using gl::ReadBy;
 /// By TouchPasses::Kernel.
 constexpr const char* kernels_of_touch[] = {"compute/touch_moved.comp", "compute/touch_find.comp",
                                             "compute/touch_push.comp",  "compute/touch_rub.comp",
-                                            "compute/touch_drag.comp",  "compute/touch_finish.comp"};
+                                            "compute/touch_drag.comp"};
 
 }  // namespace
 
 Status TouchPasses::build(gl::Context& context, const KernelOptions& kernels,
-                          const KernelOptions& stage_kernels, const Surroundings& surroundings,
-                          std::vector<Binding> finish_bindings) {
+                          const Surroundings& surroundings) {
   if (!bodies_.any()) return {};
   ASPIC_TRY(values_, Buffer::create(context, "contact of bodies",
                                     bodies_.model().particle_count() * sizeof(layout::vec4)));
@@ -29,12 +28,10 @@ Status TouchPasses::build(gl::Context& context, const KernelOptions& kernels,
       {b.triangles(), b.encounters(), b.words(), b.records()},
       {b.listed(), values, b.encounters(), b.words(), b.records()},
       {values, b.encounters(), b.records()},
-      {b.listed(), b.encounters(), b.words(), b.records()},
-      std::move(finish_bindings)};
+      {b.listed(), b.encounters(), b.words(), b.records()}};
   for (std::size_t k = 0; k < kernel_count; ++k) {
-    const KernelOptions& options = k == finish ? stage_kernels : kernels;
     ASPIC_TRY(programs_[k],
-              context.programs().compute(options.library, kernels_of_touch[k], options.defines));
+              context.programs().compute(kernels.library, kernels_of_touch[k], kernels.defines));
     std::vector<Binding> bindings = own[k];
     bindings.push_back(surroundings.constants);
     bindings.push_back(surroundings.control);
@@ -43,12 +40,12 @@ Status TouchPasses::build(gl::Context& context, const KernelOptions& kernels,
   return {};
 }
 
-void TouchPasses::run(Kernel kernel, std::uint32_t items, std::uint32_t step, std::span<const Binding> states,
-                      ReadBy readers) const {
+void TouchPasses::run(Kernel kernel, std::uint32_t items, std::uint32_t step,
+                      std::span<const Binding> states) const {
   const gl::Program& program = *programs_[kernel];
   program.set(LOCATION_STEP, step);
-  if (kernel != finish) program.set(LOCATION_TOUCH_COUNT, items);
-  passes_[kernel]->dispatch_for(items, states, readers);
+  program.set(LOCATION_TOUCH_COUNT, items);
+  passes_[kernel]->dispatch_for(items, states, ReadBy::compute_pass);
 }
 
 void TouchPasses::queue_start(const Buffer& start, std::uint32_t step) const {
@@ -62,8 +59,7 @@ void TouchPasses::queue_find(const States& states, std::uint32_t step, float tim
       std::array<Binding, 2>{{{BINDING_START_STATE, states.start}, {BINDING_STAGE_STATE, states.stage}}});
 }
 
-void TouchPasses::queue_act(const States& states, std::uint32_t step, std::uint32_t stage,
-                            ReadBy last) const {
+void TouchPasses::queue_act(const States& states, std::uint32_t step) const {
   const std::array<Binding, 2> ends = {
       {{BINDING_START_STATE, states.start}, {BINDING_OUT_STATE, states.out}}};
   run(push, bodies_.listed_count(), step, ends);
@@ -71,13 +67,6 @@ void TouchPasses::queue_act(const States& states, std::uint32_t step, std::uint3
     run(rub, bodies_.encounter_count(), step, std::span(ends).first(1));
     run(drag, bodies_.listed_count(), step, std::span(ends).last(1));
   }
-  programs_[finish]->set(LOCATION_STAGE, stage);
-  run(finish, bodies_.model().particle_count(), step,
-      std::array<Binding, 4>{{{BINDING_START_STATE, states.start},
-                              {BINDING_STAGE_STATE, states.stage},
-                              {BINDING_OUT_STATE, states.out},
-                              {BINDING_STAGE_SUMS, states.sums}}},
-      last);
 }
 
 }  // namespace aspic

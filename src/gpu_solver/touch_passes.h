@@ -22,28 +22,27 @@ class TouchPasses {
   };
   /// The states of a stage.
   struct States {
-    const gl::Buffer *start = nullptr, *stage = nullptr, *out = nullptr, *sums = nullptr;
+    const gl::Buffer *start = nullptr, *stage = nullptr, *out = nullptr;
   };
 
   /// `bodies` must outlive it.
   explicit TouchPasses(const TouchBuffers& bodies) : bodies_(bodies) {}
 
-  /// Makes programs and what stays; nothing at all for a model whose bodies do not touch. `finish`: what the
-  /// kernel that ends a stage reads in addition. Errors as make_gpu_solver.
-  Status build(gl::Context& context, const KernelOptions& kernels, const KernelOptions& stage_kernels,
-               const Surroundings& surroundings, std::vector<gl::Binding> finish);
+  /// Makes programs and what stays; nothing at all for a model whose bodies do not touch. Errors as
+  /// make_gpu_solver.
+  Status build(gl::Context& context, const KernelOptions& kernels, const Surroundings& surroundings);
 
   /// Queues the look whether lists still hold at the start of a step.
   void queue_start(const gl::Buffer& start, std::uint32_t step) const;
   /// Queues the contacts of a stage, before the forces of springs.
   void queue_find(const States& states, std::uint32_t step, float time) const;
-  /// Queues pushes and friction on these forces, then the rest of the stage.
-  void queue_act(const States& states, std::uint32_t step, std::uint32_t stage, gl::ReadBy last) const;
+  /// Queues pushes and friction on these forces.
+  void queue_act(const States& states, std::uint32_t step) const;
 
  private:
-  enum Kernel : std::size_t { moved, find, push, rub, drag, finish, kernel_count };
-  void run(Kernel kernel, std::uint32_t items, std::uint32_t step, std::span<const gl::Binding> states,
-           gl::ReadBy readers = gl::ReadBy::compute_pass) const;
+  enum Kernel : std::size_t { moved, find, push, rub, drag, kernel_count };
+  void run(Kernel kernel, std::uint32_t items, std::uint32_t step,
+           std::span<const gl::Binding> states) const;
 
   const TouchBuffers& bodies_;
   gl::Buffer values_;

@@ -15,6 +15,7 @@ class ActuatedOnTheDevice : public aspic::testing::GlTest {
  protected:
   std::unique_ptr<GpuSolver> solver(const Model& model, ForcePath path = ForcePath::automatic) {
     GpuOptions options;
+    options.split_stages = true;
     options.force_path = path;
     auto made = make_gpu_solver(context(), model, options);
     EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());

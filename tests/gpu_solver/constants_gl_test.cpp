@@ -54,6 +54,7 @@ class ConstantsOnTheDevice : public aspic::testing::GlTest {
  protected:
   static std::unique_ptr<Solver> gpu_solver(const SharedModel& model, ForcePath path, std::uint32_t run = 0) {
     GpuOptions options;
+    options.split_stages = true;
     options.force_path = path;
     options.lattice_run = run;
     auto made = make_gpu_solver(context(), model, options);

@@ -37,6 +37,7 @@ TEST_F(InputsOnTheDevice, EveryBackendHasTheReferencesBits) {
     auto cpu = std::move(make_cpu_solver(model, {.threads = 2})).value();
     EXPECT_EQ(run(*cpu, log, 5 * each), expected);
     GpuOptions options;
+    options.split_stages = true;
     options.force_path = row.path;
     options.lattice_run = row.lattice_run;
     auto gpu = make_gpu_solver(context(), model, options);

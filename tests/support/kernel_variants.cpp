@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "model/terrain.h"
+#include "support/actuated.h"
 #include "support/equality_cases.h"
 
 namespace aspic::test {
@@ -95,6 +96,11 @@ const std::vector<KernelVariant>& kernel_variants() {
       // Every path, of cubes alone and among others; what follows the sum of forces is one text for all.
       variants.add_paths("plane", cube_on(method, plane), exact);
       variants.add_paths("plane, with a net", with_net(cube_on(method, plane)), exact);
+      // Springs whose rest lengths change; and stages in two passes.
+      variants.add_paths("actuated", actuated(method, ContactModel::coulomb), exact);
+      GpuOptions split = exact;
+      split.split_stages = true;
+      variants.add_paths("plane, with a net", with_net(cube_on(method, plane)), split);
       for (const TerrainShapeRow& shape : terrain_shapes)
         variants.add(std::string(shape.name), cube_on(method, shape), exact);
       ModelSettings several = cube_on(method, plane);
