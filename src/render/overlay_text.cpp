@@ -75,7 +75,7 @@ void add_springs(const ModelSettings& settings, std::vector<OverlayLine>& lines)
 }
 
 /// A name may be as long as it likes; the panel must not cover the picture.
-constexpr std::size_t most_of_author = 40, most_of_name = 20, most_of_a_kind = 3;
+constexpr std::size_t most_of_author = 40, most_of_name = 16, most_of_a_kind = 2;
 
 /// Materials that cells of bodies are of, in file order.
 std::vector<const MaterialSettings*> materials_of_cells(const ModelSettings& settings) {
@@ -90,24 +90,46 @@ std::vector<const MaterialSettings*> materials_of_cells(const ModelSettings& set
   }
   // One that has no name.
   if (used.empty() && !settings.voxels.empty()) used.push_back(&settings.voxels.front().material);
-  if (used.size() > most_of_a_kind) used.resize(most_of_a_kind);
   return used;
 }
 
+/// A line for those that have a value in common, named by the first: "muscle + 2"; not for all where many
+/// differ.
+void add_alike(const std::vector<OverlayLine>& named, std::vector<OverlayLine>& lines) {
+  std::vector<std::pair<OverlayLine, int>> kinds;
+  for (const OverlayLine& each : named) {
+    const auto same = [&](const auto& kind) { return kind.first.value == each.value; };
+    if (const auto found = std::ranges::find_if(kinds, same); found != kinds.end())
+      ++found->second;
+    else
+      kinds.emplace_back(each, 0);
+  }
+  if (kinds.size() > most_of_a_kind) kinds.resize(most_of_a_kind);
+  for (auto& [line, more] : kinds) {
+    line.label = excerpt(line.label, most_of_name);
+    if (more > 0) line.label += fmt::format(" + {}", more);
+    lines.push_back(std::move(line));
+  }
+}
+
 void add_cells(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
+  std::vector<OverlayLine> named;
   for (const MaterialSettings* const m : materials_of_cells(settings))
-    lines.push_back({m->name.empty() ? "cells" : excerpt(m->name, most_of_name),
+    named.push_back({m->name.empty() ? "cells" : m->name,
                      fmt::format("E {} Pa   ρ {} kg/m³   ζ {}", short_number(m->youngs_modulus),
                                  short_number(m->density), short_number(m->damping_ratio))});
+  add_alike(named, lines);
 }
 
 void add_actuators(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
-  for (std::size_t i = 0; i < std::min(settings.actuators.size(), most_of_a_kind); ++i) {
+  std::vector<OverlayLine> named;
+  for (std::size_t i = 0; i < settings.actuators.size(); ++i) {
     const ActuatorSettings& a = settings.actuators[i];
     std::string value = fmt::format("a {}   {}", short_number(amplitude_of(a)), name_of(a.signal));
     if (a.signal != Signal::input) value += fmt::format("   f {} Hz", short_number(a.frequency));
-    lines.push_back({excerpt(actuator_name(settings, i), most_of_name), value});
+    named.push_back({actuator_name(settings, i), value});
   }
+  add_alike(named, lines);
 }
 
 /// What terrains have in common, or from the least to the largest.

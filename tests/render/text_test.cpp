@@ -115,6 +115,13 @@ TEST(Text, MaterialsOfCellsAndActuators) {
   settings.actuators[1].signal = Signal::input;
   EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "wave"), "a 0.1   sine   f 1.5 Hz");
   EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "actuator[1]"), "a 0.1   input");
+  // Those that are alike share a line.
+  settings.materials[1] = settings.materials[0];
+  settings.materials[1].name = "skin";
+  settings.actuators[1] = settings.actuators[0];
+  settings.actuators.push_back(settings.actuators[0]);
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "muscle + 1"), "E 200000 Pa   ρ 1000 kg/m³   ζ 0.3");
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "wave + 2"), "a 0.1   sine   f 1.5 Hz");
 }
 
 TEST(Text, NamesTheAuthorOnOneLine) {
