@@ -74,15 +74,17 @@ void input_now(Gui& gui, Simulation& simulation, const std::string& name, std::s
   const auto channel = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
   double w = channel < inputs.channels.size() ? inputs.channels[channel] : 0.0;
   const double before = w;
-  slider(gui, "Input now", fmt::format("actuator/{}/input", i), w, -1.0, 1.0, "%.2f",
-         "The signal w of this actuator, from the next step on. A reset takes it back to 0, or to the log that "
-         "is replayed.",
-         false);
+  slider(
+      gui, "Input now", fmt::format("actuator/{}/input", i), w, -1.0, 1.0, "%.2f",
+      "The signal w of this actuator, from the next step on. A reset takes it back to 0, or to the log that "
+      "is replayed.",
+      false);
   if (w != before) simulation.stepper().acts().channels[name] = w;
 }
 
 /// True if it was removed.
-bool actuator(Gui& gui, SceneControl& scene, Simulation& simulation, const SettingsList& list, std::size_t i) {
+bool actuator(Gui& gui, SceneControl& scene, Simulation& simulation, const SettingsList& list,
+              std::size_t i) {
   if (element_line(gui, fmt::format("actuator {}", i), fmt::format("actuator/{}/remove", i),
                    "Removes this actuator; the bodies stay.\n\nScene key: [[actuator]]", true)) {
     scene.change("remove actuator", [&](Scene& s) { list.remove(s.model, i); });

@@ -66,7 +66,8 @@ void draw_panels(const PanelParts& parts, double width, double height);
 // ---- sections of the panels; each a heading with its widgets ----
 void scene_section(Gui& gui, SceneControl& scene);
 void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene, const Comparison& comparison);
-void bodies_section(Gui& gui, SceneControl& scene, Simulation& simulation, CellEditor& cells, Layouts& layout);
+void bodies_section(Gui& gui, SceneControl& scene, Simulation& simulation, CellEditor& cells,
+                    Layouts& layout);
 /// Layers of a body of cells, painted with the mouse, and its palette.
 void cells_section(Gui& gui, SceneControl& scene, CellEditor& cells);
 /// Materials that have names.

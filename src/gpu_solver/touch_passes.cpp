@@ -11,7 +11,7 @@ using gl::ReadBy;
 
 /// By TouchPasses::Kernel.
 constexpr const char* kernels_of_touch[] = {"compute/touch_moved.comp", "compute/touch_find.comp",
-                                            "compute/touch_push.comp",  "compute/touch_rub.comp",
+                                            "compute/touch_push.comp", "compute/touch_rub.comp",
                                             "compute/touch_drag.comp"};
 
 }  // namespace

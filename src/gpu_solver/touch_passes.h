@@ -41,8 +41,7 @@ class TouchPasses {
 
  private:
   enum Kernel : std::size_t { moved, find, push, rub, drag, kernel_count };
-  void run(Kernel kernel, std::uint32_t items, std::uint32_t step,
-           std::span<const gl::Binding> states) const;
+  void run(Kernel kernel, std::uint32_t items, std::uint32_t step, std::span<const gl::Binding> states) const;
 
   const TouchBuffers& bodies_;
   gl::Buffer values_;

@@ -29,7 +29,10 @@ std::size_t numbers_of(const Model& model) {
 }  // namespace
 
 LiveRun::LiveRun(Scene scene, std::unique_ptr<Solver> solver)
-    : scene_(std::move(scene)), solver_(std::move(solver)), names_(input_names(solver_->model())), numbers_(numbers_of(solver_->model())) {}
+    : scene_(std::move(scene)),
+      solver_(std::move(solver)),
+      names_(input_names(solver_->model())),
+      numbers_(numbers_of(solver_->model())) {}
 
 Result<LiveRun> LiveRun::create(std::string_view key_lines) {
   ASPIC_TRY(auto scene, with_key_lines({}, key_lines));

@@ -59,8 +59,9 @@ class PageWriter {
   Status begin(const PageSettings& settings, std::span<const PageRun> runs);
   bool begun() const { return !models_.empty(); }
   /// Adds a picture: a state of each run, whose models must still live. One in which no run went on since the
-  /// last one is left out. `inputs`: those that hold, by run; of runs beyond them none. Errors: io, also where the page becomes
-  /// longer than most_characters or holds more than most_positions; diverged if a number is not finite.
+  /// last one is left out. `inputs`: those that hold, by run; of runs beyond them none. Errors: io, also
+  /// where the page becomes longer than most_characters or holds more than most_positions; diverged if a
+  /// number is not finite.
   Status add(std::span<const State* const> states, std::span<const Inputs> inputs = {});
   /// Completes the file with what became of each run: its last state, which must have been added, and its
   /// divergence, if it diverged in the step after it.

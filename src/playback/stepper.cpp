@@ -211,9 +211,8 @@ void Stepper::start_job(std::uint64_t to, double budget, const std::optional<Inp
   // Where results wait to be taken up the solvers are further than the present.
   if (jobs_.idle()) job_step_ = present_.step();
   job_to_ = to;
-  const auto advance =
-      [=, this, log = log_, acts = acts_,
-       by_hand = present_.setup().pinned](const std::atomic<bool>& cancelled) -> Result<JobResult> {
+  const auto advance = [=, this, log = log_, acts = acts_, by_hand = present_.setup().pinned](
+                           const std::atomic<bool>& cancelled) -> Result<JobResult> {
     Engines& engines = present_.engines();
     const Inputs inputs = repeated ? *repeated : composed(acts, by_hand, engines.model(), *log, job_step_);
     ASPIC_CHECK(engines.use_context() ? Status() : engines.set_inputs(inputs));

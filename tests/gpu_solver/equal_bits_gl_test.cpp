@@ -32,11 +32,11 @@ constexpr Paths without_tiles = Paths(every_path).first(3);
 class EqualBits : public aspic::testing::GlTest {
  protected:
   void expect_equal(const ModelSettings& settings, std::uint64_t steps,
-                           std::initializer_list<std::uint32_t> group_sizes, Paths paths = every_path) {
+                    std::initializer_list<std::uint32_t> group_sizes, Paths paths = every_path) {
     expect_equal(test::build(settings), steps, group_sizes, paths);
   }
-  void expect_equal(const Model& model, std::uint64_t steps,
-                           std::initializer_list<std::uint32_t> group_sizes, Paths paths = every_path) {
+  void expect_equal(const Model& model, std::uint64_t steps, std::initializer_list<std::uint32_t> group_sizes,
+                    Paths paths = every_path) {
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
     ASSERT_FALSE((*reference->advance(steps)).has_value());
     const State expected = *reference->state();

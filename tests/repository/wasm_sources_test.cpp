@@ -63,7 +63,8 @@ std::set<std::string> used_sources(const std::set<std::string>& sources) {
     const std::string file = left.back();
     left.pop_back();
     if (!seen.insert(file).second) continue;
-    for (const std::string& header : matches(text_in(source_tree / file), R"re(#include "([a-z_/]+)\.h")re")) {
+    for (const std::string& header :
+         matches(text_in(source_tree / file), R"re(#include "([a-z_/]+)\.h")re")) {
       const bool own = fs::exists(source_tree / "src" / (header + ".h"));
       left.push_back((own ? "src/" : "include/") + header + ".h");
       if (own && fs::exists(source_tree / "src" / (header + ".cpp"))) used.insert("src/" + header);
