@@ -172,7 +172,7 @@ def open_pages(b, job):
         if job.get("inputs"):
             require(inputs(b, where) == job["inputs"], f"{where}: has other sliders of inputs than {job['inputs']}")
             headings = b.call("return [...document.querySelectorAll('#controls summary')].map((s) => s.textContent)")
-            require("inputs" in headings and "voxels worm" in headings, f"{where}: has the headings {headings}")
+            require({"inputs", "material muscle", "actuator legs"} <= set(headings), f"{where}: has the headings {headings}")
         else:
             actuated(b, where)
         if number == 0 and job.get("touch"):
