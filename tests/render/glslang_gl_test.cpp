@@ -96,9 +96,11 @@ class Glslang : public aspic::testing::GlTest {
 
   /// What the compiler says of the files, by name; empty if it accepts them all.
   static std::string complaints(const test::TemporaryDirectory& directory) {
-    const std::string command =
-        fmt::format("cd '{}' && for file in *; do glslangValidator $file || echo refused: $file; done 2>&1",
-                    directory.path().string());
+    // Version 12.0.0 crashes on some texts; those it must accept where it makes SPIR-V of them.
+    const std::string command = fmt::format(
+        "cd '{}' && for file in *; do glslangValidator $file || {{ [ $? -ge 128 ] && "
+        "glslangValidator -G -o /dev/null $file; }} || echo refused: $file; done 2>&1",
+        directory.path().string());
     std::FILE* const pipe = ::popen(command.c_str(), "r");
     if (!pipe) return "no shell";
     std::string text;
