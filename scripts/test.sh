@@ -27,7 +27,7 @@ full      core, and by label:
   examples     the commands of the documents, shortened
   independent  the independent implementation of the physics
   packages     the Python package from source distribution to wheel to a fresh environment; its sweeps on Dask and submitit;
-               its notebooks; the cube that learns to crawl, to the end
+               its notebooks; the cube that learns to crawl and the robots that evolve, to the end
   install      an installed library, used by a project outside of the tree; the programs of docs/library.md
   exports      files for other programs, read by VTK, USD, trimesh, zarr and xarray from PyPI (600 MB),
                and by Blender's library (1 GB)
