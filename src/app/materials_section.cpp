@@ -105,7 +105,6 @@ enum class Made { springs, numbers, palette, named, new_one };
 struct MadeOf {
   Made kind;
   std::string name;  ///< of a material that has one; for the list else
-  friend bool operator==(const MadeOf&, const MadeOf&) = default;
 };
 
 std::vector<MadeOf> choices(const ModelSettings& settings, bool cells) {

@@ -137,16 +137,16 @@ class TouchShortlists {
     const auto [corner_low, corner_high] = around(zone.corners, zone.carriers);
     const auto [carrier_low, carrier_high] = around(zone.carriers, zone.end);
     if (!std::isfinite(sum)) return nowhere;  // what is no number has gone anywhere
-    Vec3 most;
+    Vec3 furthest;
     double all = 0.0;
     for (std::size_t c = 0; c < 3; ++c) {
-      most[static_cast<int>(c)] = static_cast<double>(
+      furthest[static_cast<int>(c)] = static_cast<double>(
           std::max({corner_high[c] - carrier_low[c], carrier_high[c] - corner_low[c], T(0)}));
       all = std::max(
           {all, std::abs(static_cast<double>(corner_low[c])), std::abs(static_cast<double>(corner_high[c]))});
     }
     // Rounding of the differences above.
-    return 1.001 * length(most) + 1e-6 * all;
+    return 1.001 * length(furthest) + 1e-6 * all;
   }
 
   /// The way of a zone begins here.

@@ -69,7 +69,7 @@ State held_at(std::uint64_t step) {
 TEST(ActuatorWork, OfAHeldSpringIsItsEnergy) {
   for (const Signal signal : {Signal::triangle, Signal::square, Signal::sine}) {
     const Model model = held_spring(signal);
-    for (const std::uint64_t every : {1, 2, 5}) {
+    for (const std::uint64_t every : {1u, 2u, 5u}) {
       ActuatorWork work;
       const double start = measure(model, held_at(0)).elastic;
       for (std::uint64_t step = 0; step <= 30; step += every) {
