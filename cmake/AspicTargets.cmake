@@ -140,6 +140,14 @@ function(aspic_program_part name)
   aspic_precompiled(${name} aspic_room_headers)
 endfunction()
 
+# aspic_runs(TARGET program …): tests that run other programs, which are built with them. ASPIC_OBJECTS_ONLY leaves them out, since
+# compiling one file of the target would wait for them.
+function(aspic_runs target)
+  if(NOT ASPIC_OBJECTS_ONLY)
+    add_dependencies(${target} ${ARGN})
+  endif()
+endfunction()
+
 # aspic_computes(NAME): a target that computes at length, optimised as far as the compiler can, without checks inside its loops.
 # Below -O2 clang inlines nothing of Eigen and Highway: minutes become hours under the sanitizers.
 function(aspic_computes name)
