@@ -258,7 +258,7 @@ TEST_F(EqualBitsInFull, BoxesOfAnyEdgesImplicit) {
 }
 
 TEST_F(EqualBits, MixedBodiesImplicit) {
-  expect_equal(mixed(Integrator::implicit_euler, 1.0 / 60.0), 40, {64});
+  expect_equal(mixed(Integrator::implicit_euler, 1.0 / 60.0), 24, {64});
 }
 
 /// The device's limits but for blocks of so many bytes, until the end of the scope.
@@ -299,7 +299,7 @@ void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed
   const bool solved = integrator == Integrator::implicit_euler;
   Model model = mixed(integrator, solved ? 1.0 / 60.0 : 0.001, first);
   model.contact.bodies = false;  // which needs complete states
-  const std::uint64_t steps = solved ? 15 : 120;
+  const std::uint64_t steps = solved ? 8 : 40;
   auto reference = std::move(make_reference_solver(model, Precision::single)).value();
   ASSERT_FALSE((*reference->advance(steps)).has_value());
   GpuOptions options = options_for_small_blocks(context);
@@ -400,7 +400,7 @@ TEST_F(EqualBits, FourImplicitInACornerOfThreeTerrains) {
       side.restitution = 0.2;
       settings.terrain.push_back(side);
     }
-    expect_equal(settings, 150, {64});
+    expect_equal(settings, 90, {64});
   }
 }
 
