@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "base/printable.h"
 #include "model/actuators.h"
 #include "model/cube.h"
 #include "model/integrator.h"
+#include "model/material.h"
 #include "model/model.h"
 #include "model/terrain.h"
 
@@ -41,10 +43,26 @@ SpringsOfType of_type(std::string_view label, const Springs& s) {
   return {label, s.stiffness, s.damping};
 }
 
+/// The numbers of a body's material; nothing: it has none, or names one that the scene does not have.
+std::optional<MaterialSettings> numbers_of(const ModelSettings& settings,
+                                           const std::optional<MaterialSettings>& of_body) {
+  if (!of_body) return std::nullopt;
+  const auto found = material_of(settings, *of_body);
+  return found ? std::optional(*found) : std::nullopt;
+}
+
+/// What the first body is of, if that is a net or a cloth of a material: its springs differ by direction.
+std::optional<MaterialSettings> first_material(const ModelSettings& settings) {
+  if (!settings.cubes.empty()) return std::nullopt;
+  if (!settings.goal_nets.empty()) return numbers_of(settings, settings.goal_nets.front().material);
+  return settings.cloths.empty() ? std::nullopt : numbers_of(settings, settings.cloths.front().material);
+}
+
 /// Those of the first body, kinds in the order of scene files.
 std::vector<SpringsOfType> first_springs(const ModelSettings& settings) {
   if (!settings.cubes.empty()) {
-    const CubeSettings& cube = settings.cubes.front();
+    CubeSettings cube = settings.cubes.front();
+    cube.material = numbers_of(settings, cube.material);
     if (cube.material) return {of_type("structural", material_springs(cube))};
     return {of_type("structural", cube.structural), of_type("shear", cube.shear),
             of_type("bending", cube.bending)};
@@ -62,7 +80,20 @@ std::vector<SpringsOfType> first_springs(const ModelSettings& settings) {
           of_type("bending", cloth.bending)};
 }
 
+std::string values_of(const MaterialSettings& m) {
+  return fmt::format("E {} Pa   ρ {} kg/m³   ζ {}", short_number(m.youngs_modulus), short_number(m.density),
+                     short_number(m.damping_ratio));
+}
+
+/// A name may be as long as it likes; the panel must not cover the picture.
+constexpr std::size_t most_of_author = 40, most_of_name = 16, most_of_a_kind = 2;
+
 void add_springs(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
+  if (const auto material = first_material(settings)) {
+    lines.push_back(
+        {material->name.empty() ? "material" : excerpt(material->name, most_of_name), values_of(*material)});
+    return;
+  }
   const std::vector<SpringsOfType> springs = first_springs(settings);
   const auto value = [](const SpringsOfType& s) {
     return fmt::format("k {} N/m   c {} N·s/m", short_number(s.stiffness), short_number(s.damping));
@@ -73,9 +104,6 @@ void add_springs(const ModelSettings& settings, std::vector<OverlayLine>& lines)
   else
     for (const SpringsOfType& s : springs) lines.push_back({std::string(s.label), value(s)});
 }
-
-/// A name may be as long as it likes; the panel must not cover the picture.
-constexpr std::size_t most_of_author = 40, most_of_name = 16, most_of_a_kind = 2;
 
 /// Materials that cells of bodies are of, in file order.
 std::vector<const MaterialSettings*> materials_of_cells(const ModelSettings& settings) {
@@ -115,9 +143,7 @@ void add_alike(const std::vector<OverlayLine>& named, std::vector<OverlayLine>& 
 void add_cells(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
   std::vector<OverlayLine> named;
   for (const MaterialSettings* const m : materials_of_cells(settings))
-    named.push_back({m->name.empty() ? "cells" : m->name,
-                     fmt::format("E {} Pa   ρ {} kg/m³   ζ {}", short_number(m->youngs_modulus),
-                                 short_number(m->density), short_number(m->damping_ratio))});
+    named.push_back({m->name.empty() ? "cells" : m->name, values_of(*m)});
   add_alike(named, lines);
 }
 

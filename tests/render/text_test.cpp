@@ -44,6 +44,26 @@ TEST(Text, MaterialGivesItsSpringConstants) {
   EXPECT_TRUE(value_of(overlay_lines(scene, 0.0), "springs").starts_with("k 2006 N/m"));
 }
 
+TEST(Text, SaysWhatBodiesOfANamedMaterialAreOf) {
+  Scene scene;
+  MaterialSettings& firm = scene.model.materials.emplace_back();
+  firm.name = "firm";
+  firm.youngs_modulus = 20 * 32906.25;
+  firm.density = 16.0;
+  firm.damping_ratio = 0.5;
+  MaterialSettings named;
+  named.name = "firm";
+  const std::string numbers = "E 658125 Pa   ρ 16 kg/m³   ζ 0.5";
+  scene.model.cloths.emplace_back().material = named;
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "firm"), numbers);
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "structural"), "(none)");
+  scene.model.goal_nets.emplace_back().material = firm;
+  scene.model.goal_nets.back().material->name.clear();
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "material"), numbers);
+  scene.model.cubes.emplace_back().material = named;
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "springs"), "k 40000 N/m   c 143.1 N·s/m");
+}
+
 std::vector<std::string> labels(const Scene& scene) {
   std::vector<std::string> all;
   for (const OverlayLine& line : overlay_lines(scene, 0.0)) all.push_back(line.label);
