@@ -468,9 +468,15 @@ T BodyContact<T>::energy() const {
 
 template <class T>
 std::uint64_t BodyContact<T>::bytes() const {
-  return sizeof(*this) + near_.bytes() + surfaces_.points.size() * (sizeof(TouchPoint) + sizeof(Vec3)) +
-         surfaces_.triangles.size() * (sizeof(TouchTriangle) + 3 * sizeof(std::uint32_t)) +
-         place_of_.capacity() * sizeof(std::uint32_t);
+  const auto of = [](const auto&... lists) { return ((lists.capacity() * sizeof(lists[0])) + ...); };
+  std::uint64_t all = sizeof(*this) + near_.bytes() + normals_.bytes() + short_.bytes() +
+                      surfaces_.points.size() * sizeof(TouchPoint) +
+                      surfaces_.triangles.size() * (sizeof(TouchTriangle) + 3 * sizeof(std::uint32_t)) +
+                      of(eased_, own_, surface_, known_places_, places_, pieces_, touches_, particles_,
+                         place_of_, inverse_mass_, share_, v1_);
+  for (const Piece& p : pieces_)
+    all += of(p.queue, p.ends, p.sights, p.around, p.by_distance, p.touches, p.listed);
+  return all;
 }
 
 template class TouchTable<float>;

@@ -193,7 +193,7 @@ void check_camera(const Scene& scene, Complaints& complaints) {
 
 void check_followed(const Scene& scene, Complaints& complaints) {
   if (!scene.view.follow || find_followed(scene.model, *scene.view.follow)) return;
-  std::vector<std::string> names = followable(scene.model, 0);
+  std::vector<std::string> names = actuated_names(scene.model);
   if (const std::uint64_t balls = predict_counts(scene.model).balls; balls > 0)
     names.push_back(balls == 1 ? "ball[0]" : fmt::format("ball[0] … ball[{}]", balls - 1));
   complaints.push_back({{fmt::format("'view.follow' names {}, which the scene does not have; it has {}",

@@ -1,6 +1,7 @@
 // What a camera follows.
 #include "scene/follow.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "aspic/scene.h"
@@ -41,6 +42,8 @@ TEST(Followed, MayBeNamedAsItNamesItself) {
   EXPECT_NE(find_followed(scene.model, "worm"), find_followed(scene.model, "cube[0]"));
   scene.model.voxels[0].name.clear();
   EXPECT_FALSE(find_followed(scene.model, "worm").has_value());
+  const std::string wrong[] = {"view.follow=legs"};
+  EXPECT_THAT(load_scene("worm", wrong).error().message(), testing::HasSubstr("it has worm"));
 }
 
 TEST(Followed, KeepsItsMeaningWhereElementsAreRemoved) {
