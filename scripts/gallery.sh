@@ -46,6 +46,7 @@ draw cube-torus 0.95 cube-torus
 draw cube-hole 1.3 cube-hole
 draw elevator 2 elevator
 draw cubes-stack 6 cubes-stack
+draw cubes-tower 2 cubes-tower
 draw heap 3 heap
 draw squeeze 2 squeeze
 draw jelly-in-net 1 jelly-in-net

@@ -39,6 +39,7 @@ const std::vector<View>& views() {
                                         {"worm", 2000},
                                         {"walker", 2000},
                                         {"cubes-stack", 900},
+                                        {"cubes-tower", 100},
                                         {"heap", 700},
                                         {"squeeze", 900},
                                         {"jelly-in-net", 900},

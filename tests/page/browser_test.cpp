@@ -81,6 +81,7 @@ std::vector<Shot> all_shots() {
       {"worm", "2.2"},
       {"walker", "2.1"},
       {"cubes-stack", "1"},
+      {"cubes-tower", "0.1"},
       {"heap", "1.3"},
       {"squeeze", "1.9"},
       {"jelly-in-net", "1"},

@@ -210,6 +210,7 @@ std::pair<std::uint32_t, std::uint32_t> expected_sizes(const std::string& scene)
   if (scene == "ball-pit") return {0, 1000};
   if (scene == "cube-and-balls") return {1000, 3};
   if (scene == "cubes-stack") return {3 * 1000, 0};
+  if (scene == "cubes-tower") return {8 * 1000, 0};
   if (scene == "heap") return {28 * 64, 0};
   if (scene == "squeeze") return {2 * 512, 0};
   if (scene == "jelly-in-net") return {744 + 216, 0};
@@ -236,7 +237,7 @@ TEST(Builtin, ScenesLoadAndBuild) {
   }
   EXPECT_THAT(
       names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus",
-                                  "cube-hole", "elevator", "cubes-stack", "heap", "squeeze", "jelly-in-net",
+                                  "cube-hole", "elevator", "cubes-stack", "cubes-tower", "heap", "squeeze", "jelly-in-net",
                                   "knot", "goal-net", "penalty", "flag", "curtain", "bridge", "swing",
                                   "jelly-figure", "worm", "walker", "ball-pit", "cube-and-balls",
                                   "large-cube", "course-2021-plane", "course-2021-tilted-plane",
