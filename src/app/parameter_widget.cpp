@@ -248,6 +248,7 @@ std::string tooltip_of(const Parameter& p, std::size_t index) {
 /// In the place of a value: the meaning of its absence, if there is room for that.
 void absent_text(std::string_view meaning) {
   if (meaning == "that of [contact]") meaning = "as above";
+  if (meaning == "contact.body-friction") meaning = "common";  // to all bodies
   const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;
   if (width > ImGui::GetContentRegionAvail().x) meaning = "–";
   ImGui::TextDisabled("%.*s", static_cast<int>(meaning.size()), meaning.data());

@@ -45,6 +45,11 @@ TEST_F(Layout, EveryControlExplainsItself) {
       const Parameter* const p = find_parameter(path);
       if (!p) continue;
       ++keys;
+      // One control of all types of springs, where those of each type are folded away.
+      if (text.find("\n\nScene keys: ") != std::string::npos) {
+        EXPECT_THAT(text, testing::HasSubstr(name.substr(0, name.find('/')) + ","));
+        continue;
+      }
       EXPECT_THAT(text, testing::HasSubstr(std::string(p->meaning))) << name;
       EXPECT_THAT(text, testing::HasSubstr("Scene key: " + path.substr(0, path.find('[')))) << name;
       if (!p->unit.empty()) {
