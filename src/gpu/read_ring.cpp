@@ -11,7 +11,7 @@ namespace {
 
 // The copy targets belong to no indexed binding point, so that reading disturbs no pass.
 constexpr GLenum source_target = GL_COPY_READ_BUFFER;
-constexpr GLenum target = GL_COPY_WRITE_BUFFER;
+constexpr GLenum drain_target = GL_COPY_WRITE_BUFFER;
 
 }  // namespace
 
@@ -19,8 +19,8 @@ ReadRing::ReadRing(Context& context, std::uint64_t bytes) : context_(&context), 
   for (std::size_t n = 0; n < capacity; ++n) {
     GLuint id = 0;
     glGenBuffers(1, &id);
-    glBindBuffer(target, id);
-    glBufferData(target, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
+    glBindBuffer(drain_target, id);
+    glBufferData(drain_target, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
     buffers_.emplace_back(context, id, [](std::uint32_t owned) { glDeleteBuffers(1, &owned); });
   }
 }
@@ -28,9 +28,9 @@ ReadRing::ReadRing(Context& context, std::uint64_t bytes) : context_(&context), 
 void ReadRing::submit(const Buffer& source, std::uint64_t offset, std::uint64_t bytes) {
   assert(!full() && offset <= source.bytes() && bytes <= source.bytes() - offset);
   const std::size_t slot = (first_ + pending_) % capacity;
-  glBindBuffer(target, buffers_[slot].id());
+  glBindBuffer(drain_target, buffers_[slot].id());
   glBindBuffer(source_target, source.id());
-  glCopyBufferSubData(source_target, target, static_cast<GLintptr>(offset), 0,
+  glCopyBufferSubData(source_target, drain_target, static_cast<GLintptr>(offset), 0,
                       static_cast<GLsizeiptr>(bytes));
   fences_[slot] = fence(*context_);
   ++pending_;
@@ -52,8 +52,8 @@ void ReadRing::take(std::span<std::byte> data) {
     std::ranges::fill(data, std::byte{0xff});
     return;
   }
-  glBindBuffer(target, buffers_[slot].id());
-  glGetBufferSubData(target, 0, static_cast<GLsizeiptr>(data.size()), data.data());
+  glBindBuffer(drain_target, buffers_[slot].id());
+  glGetBufferSubData(drain_target, 0, static_cast<GLsizeiptr>(data.size()), data.data());
 }
 
 void ReadRing::forget() {

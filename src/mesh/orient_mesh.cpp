@@ -13,7 +13,7 @@
 namespace aspic {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t no_face = 0xffffffffu;
 
 /// One side of a face.
 struct Side {
@@ -25,7 +25,7 @@ struct Side {
 
 /// Across a side of a face.
 struct Neighbour {
-  std::uint32_t face = none;
+  std::uint32_t face = no_face;
   bool agrees = true;  ///< both run through the side in opposite directions, as faces of one surface do
 };
 
@@ -96,7 +96,7 @@ class Orientation {
       for (std::size_t at = patch.first; at < order_.size(); ++at) {
         const std::uint32_t face = order_[at];
         for (const Neighbour& n : neighbours_[face]) {
-          if (n.face == none) {
+          if (n.face == no_face) {
             patch.closed = false;
           } else if (!reached[n.face]) {
             reached[n.face] = true;

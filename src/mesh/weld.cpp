@@ -16,23 +16,23 @@ struct Mixed {
   std::size_t operator()(std::uint64_t key) const { return SplitMix64::mix(key); }
 };
 
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t no_point = 0xffffffffu;
 
 /// The points that stand for others, by the cell of a grid that they are in. Those of one cell are farther
 /// from each other than the tolerance, so they are few.
 class Cells {
  public:
   Cells(std::span<const Vec3> points, double tolerance)
-      : points_(points), tolerance_(tolerance), width_(8.0 * tolerance), next_(points.size(), none) {
+      : points_(points), tolerance_(tolerance), width_(8.0 * tolerance), next_(points.size(), no_point) {
     Bounds bounds;
     for (const Vec3& p : points) bounds.add(p);
     low_ = bounds.low;
     heads_.reserve(points.size());
   }
 
-  /// The first point within the tolerance, or `none`.
+  /// The first point within the tolerance, or `no_point`.
   std::uint32_t find(const Vec3& p) const {
-    std::uint32_t best = none;
+    std::uint32_t best = no_point;
     std::array<std::array<std::uint64_t, 2>, 3> range;
     for (int axis = 0; axis < 3; ++axis)
       range[static_cast<std::size_t>(axis)] = {cell(p, axis, -tolerance_), cell(p, axis, tolerance_)};
@@ -45,7 +45,7 @@ class Cells {
 
   void add(std::uint32_t index) {
     const Vec3& p = points_[index];
-    auto [at, fresh] = heads_.try_emplace(key(cell(p, 0, 0.0), cell(p, 1, 0.0), cell(p, 2, 0.0)), none);
+    auto [at, fresh] = heads_.try_emplace(key(cell(p, 0, 0.0), cell(p, 1, 0.0), cell(p, 2, 0.0)), no_point);
     next_[index] = at->second;
     at->second = index;
   }
@@ -53,8 +53,8 @@ class Cells {
  private:
   std::uint32_t find_in(const Vec3& p, std::uint64_t cell_key) const {
     const auto at = heads_.find(cell_key);
-    std::uint32_t best = none;
-    for (std::uint32_t i = at == heads_.end() ? none : at->second; i != none; i = next_[i]) {
+    std::uint32_t best = no_point;
+    for (std::uint32_t i = at == heads_.end() ? no_point : at->second; i != no_point; i = next_[i]) {
       const Vec3 d = points_[i] - p;
       if (dot(d, d) <= tolerance_ * tolerance_) best = std::min(best, i);
     }
@@ -87,7 +87,7 @@ std::vector<std::uint32_t> weld_points(std::span<const Vec3> points, double tole
   Cells cells(points, tolerance);
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     const std::uint32_t known = cells.find(points[i]);
-    if (known == none)
+    if (known == no_point)
       cells.add(i);
     else
       first[i] = known;

@@ -129,7 +129,7 @@ Result<Finding> projection(const Subject& subject) {
 
 /// Largest difference between a shape's normal and the gradient of its distance, by differences over 1e-5 m,
 /// over 1,000 places within 6 m of where a cube is dropped.
-Result<Finding> gradient(const Subject&) {
+Result<Finding> normals_are_gradients(const Subject&) {
   constexpr double step = 1e-5;
   double worst = 0.0;
   for (const TerrainShapeRow& shape : terrain_shapes) {
@@ -189,7 +189,7 @@ void add_contact_checks(std::vector<Check>& checks) {
                     "≤ 16 ε of the coordinates", true, false, projection});
   checks.push_back({"contact/gradient",
                     "every shape's normal is the gradient of its distance, 1,000 places each",
-                    at_most_text(1e-8), true, false, gradient});
+                    at_most_text(1e-8), true, false, normals_are_gradients});
   checks.push_back(
       {"contact/elevator",
        "a particle's distance from a plane that rises and falls, 8 s, over h²a; every integrator",

@@ -26,7 +26,7 @@ using testing::Not;
 using Words = std::vector<std::string>;
 
 /// Small pictures of a short run, drawn in software.
-Words run_words(const Words& more) {
+Words film_words(const Words& more) {
   Words words = {
       "run", "cube-plane", "--backend", "reference", "--json", "--set", "cube[0].particles-per-edge=4"};
   if (std::ranges::find(more, "--size") == more.end()) words.insert(words.end(), {"--size", "128x96"});
@@ -93,7 +93,7 @@ TEST(PictureCost, RefusesWhatItDoesNotMeasure) {
 TEST(Video, HasTheLengthRateAndSizeAskedFor) {
   const test::TemporaryDirectory dir;
   // 0.5 s at 60 a second are 30 intervals, 31 pictures.
-  const auto run = aspic(run_words({"--duration", "0.5", "--video", dir.file("v.mp4")}), software());
+  const auto run = aspic(film_words({"--duration", "0.5", "--video", dir.file("v.mp4")}), software());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::string said = probe(dir.file("v.mp4"));
   EXPECT_THAT(said, HasSubstr("codec_name=h264"));
@@ -117,14 +117,14 @@ TEST(Video, HasTheLengthRateAndSizeAskedFor) {
 
 TEST(Video, SlowMotionAndOtherFormats) {
   const test::TemporaryDirectory dir;
-  const auto webm =
-      aspic(run_words({"--duration", "0.1", "--video", dir.file("v.webm"), "--fps", "30", "--speed", "0.25"}),
-            software());
+  const auto webm = aspic(
+      film_words({"--duration", "0.1", "--video", dir.file("v.webm"), "--fps", "30", "--speed", "0.25"}),
+      software());
   ASSERT_EQ(webm.exit_code, 0) << webm.err;
   EXPECT_THAT(probe(dir.file("v.webm")), HasSubstr("nb_read_frames=13"));  // 0.4 s at 30 a second
   EXPECT_THAT(probe(dir.file("v.webm")), HasSubstr("codec_name=vp9"));
   const auto gif =
-      aspic(run_words({"--duration", "0.1", "--video", dir.file("v.gif"), "--fps", "25"}), software());
+      aspic(film_words({"--duration", "0.1", "--video", dir.file("v.gif"), "--fps", "25"}), software());
   ASSERT_EQ(gif.exit_code, 0) << gif.err;
   EXPECT_THAT(probe(dir.file("v.gif")), HasSubstr("codec_name=gif"));
 }
@@ -132,7 +132,7 @@ TEST(Video, SlowMotionAndOtherFormats) {
 TEST(Video, ImpossibleWishesAreUsageErrors) {
   const test::TemporaryDirectory dir;
   const auto refused = [&](const Words& words) {
-    const auto run = aspic(run_words(words), software());
+    const auto run = aspic(film_words(words), software());
     EXPECT_EQ(run.exit_code, 2) << run.err;
     EXPECT_EQ(dir.entries(), 0u);
     return run.err;
@@ -150,12 +150,12 @@ TEST(Video, ImpossibleWishesAreUsageErrors) {
 TEST(Video, ExistingFileIsKeptUnlessForced) {
   const test::TemporaryDirectory dir;
   dir.write("v.mp4", "mine");
-  const auto refused = aspic(run_words({"--steps", "1000000000", "--video", dir.file("v.mp4")}), software());
+  const auto refused = aspic(film_words({"--steps", "1000000000", "--video", dir.file("v.mp4")}), software());
   EXPECT_EQ(refused.exit_code, 6);  // at once: before a billion steps
   EXPECT_THAT(refused.err, HasSubstr("--force"));
   EXPECT_EQ(dir.read("v.mp4"), "mine");
   const auto forced =
-      aspic(run_words({"--steps", "20", "--video", dir.file("v.mp4"), "--force"}), software());
+      aspic(film_words({"--steps", "20", "--video", dir.file("v.mp4"), "--force"}), software());
   EXPECT_EQ(forced.exit_code, 0) << forced.err;
   EXPECT_THAT(probe(dir.file("v.mp4")), HasSubstr("codec_name=h264"));
 }
@@ -163,12 +163,12 @@ TEST(Video, ExistingFileIsKeptUnlessForced) {
 TEST(Video, MissingFfmpegNamesThePackageAndFramesStillWork) {
   const test::TemporaryDirectory dir;
   const auto video =
-      aspic(run_words({"--steps", "20", "--video", dir.file("v.mp4")}), software(dir.path().string()));
+      aspic(film_words({"--steps", "20", "--video", dir.file("v.mp4")}), software(dir.path().string()));
   EXPECT_EQ(video.exit_code, 6);
   EXPECT_THAT(video.err, HasSubstr("apt install ffmpeg"));
   EXPECT_EQ(dir.entries(), 0u);
   const auto frames =
-      aspic(run_words({"--steps", "20", "--frames", dir.file("f")}), software(dir.path().string()));
+      aspic(film_words({"--steps", "20", "--frames", dir.file("f")}), software(dir.path().string()));
   EXPECT_EQ(frames.exit_code, 0) << frames.err;
   EXPECT_TRUE(std::filesystem::exists(dir.file("f/frame-000002.png")));
 }
@@ -177,7 +177,7 @@ TEST(Video, FailingFfmpegIsQuoted) {
   const test::TemporaryDirectory bin, dir;
   bin.write("ffmpeg", "#!/bin/sh\necho 'Unknown encoder libx264' >&2\nexit 7\n");
   ::chmod(bin.file("ffmpeg").c_str(), 0755);
-  const auto run = aspic(run_words({"--duration", "0.5", "--video", dir.file("v.mp4")}),
+  const auto run = aspic(film_words({"--duration", "0.5", "--video", dir.file("v.mp4")}),
                          software(bin.path().string() + ":/usr/bin:/bin"));
   EXPECT_EQ(run.exit_code, 6);
   EXPECT_THAT(run.err, HasSubstr("Unknown encoder libx264"));
@@ -189,18 +189,18 @@ TEST(Video, AFullDiskLeavesNothingThatLooksWhole) {
   const test::TemporaryDirectory dir;
   ProcessOptions options = software();
   options.file_size_limit = 2048;
-  const auto video = aspic(run_words({"--duration", "0.5", "--video", dir.file("v.mp4")}), options);
+  const auto video = aspic(film_words({"--duration", "0.5", "--video", dir.file("v.mp4")}), options);
   EXPECT_EQ(video.exit_code, 6);
   EXPECT_THAT(video.err, HasSubstr("File too large"));
   EXPECT_EQ(dir.entries(), 0u);
-  const auto frames = aspic(run_words({"--duration", "0.5", "--frames", dir.file("f")}), options);
+  const auto frames = aspic(film_words({"--duration", "0.5", "--frames", dir.file("f")}), options);
   EXPECT_EQ(frames.exit_code, 6);
   EXPECT_TRUE(std::filesystem::is_empty(dir.file("f")));
 }
 
 TEST(Video, AKilledRunLeavesNothingUnderTheFinalName) {
   const test::TemporaryDirectory dir;
-  test::Process process(run_words({"--duration", "1000", "--video", dir.file("v.mp4")}), software());
+  test::Process process(film_words({"--duration", "1000", "--video", dir.file("v.mp4")}), software());
   std::this_thread::sleep_for(std::chrono::seconds(3));
   process.send(SIGKILL);
   EXPECT_EQ(process.wait().signal, SIGKILL);
@@ -209,7 +209,7 @@ TEST(Video, AKilledRunLeavesNothingUnderTheFinalName) {
 
 TEST(Video, AnInterruptedRunLeavesAWholeVideo) {
   const test::TemporaryDirectory dir;
-  test::Process process(run_words({"--duration", "100000", "--video", dir.file("v.mp4")}), software());
+  test::Process process(film_words({"--duration", "100000", "--video", dir.file("v.mp4")}), software());
   std::this_thread::sleep_for(std::chrono::seconds(3));
   process.send(SIGINT);
   EXPECT_EQ(process.wait().exit_code, 130);
@@ -221,7 +221,7 @@ TEST(Frames, EndWithTheLastStateWhateverTheRate) {
   const test::TemporaryDirectory dir;
   // 7 ms at 60 a second: the first state, and the last.
   const auto run =
-      aspic(run_words({"--steps", "7", "--frames", dir.file("f"), "--frames-format", "jpg", "--no-text"}),
+      aspic(film_words({"--steps", "7", "--frames", dir.file("f"), "--frames-format", "jpg", "--no-text"}),
             software());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(std::filesystem::exists(dir.file("f/frame-000001.jpg")));
@@ -230,14 +230,14 @@ TEST(Frames, EndWithTheLastStateWhateverTheRate) {
 
 TEST(Frames, ViewChangesThePictureAndNotTheRun) {
   const test::TemporaryDirectory dir;
-  const auto plain = aspic(run_words({"--steps", "5", "--frames", dir.file("a")}), software());
-  const auto seen = aspic(run_words({"--steps", "5", "--frames", dir.file("b"), "--view", "colour=speed",
-                                     "--view", "camera.position=[3.0, 4.0, 20.0]"}),
+  const auto plain = aspic(film_words({"--steps", "5", "--frames", dir.file("a")}), software());
+  const auto seen = aspic(film_words({"--steps", "5", "--frames", dir.file("b"), "--view", "colour=speed",
+                                      "--view", "camera.position=[3.0, 4.0, 20.0]"}),
                           software());
   ASSERT_EQ(seen.exit_code, 0) << seen.err;
   EXPECT_EQ(json_member(plain.out, "state_hash"), json_member(seen.out, "state_hash"));
   EXPECT_NE(dir.read("a/frame-000000.png"), dir.read("b/frame-000000.png"));
-  const auto wrong = aspic(run_words({"--frames", dir.file("c"), "--view", "colour=loud"}), software());
+  const auto wrong = aspic(film_words({"--frames", dir.file("c"), "--view", "colour=loud"}), software());
   EXPECT_EQ(wrong.exit_code, 3);
   EXPECT_THAT(wrong.err, HasSubstr("colour"));
 }

@@ -27,7 +27,7 @@ constexpr std::string_view box =
     "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 0.5\nv 2 0 0.5\nv 2 1 0.5\nv 0 1 0.5\n"
     "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
 
-const std::string body = "schema = 1\n[[voxels]]\n";
+const std::string voxels_table = "schema = 1\n[[voxels]]\n";
 
 std::string box_file(const test::TemporaryDirectory& dir) {
   dir.write("box.obj", std::string(box));
@@ -36,7 +36,7 @@ std::string box_file(const test::TemporaryDirectory& dir) {
 
 TEST(MeshScene, BecomesLayersSizeAndSkin) {
   const test::TemporaryDirectory dir;
-  const Scene scene = test::parsed(body + fmt::format("mesh = \"{}\"\ncells = 8\n", box_file(dir)));
+  const Scene scene = test::parsed(voxels_table + fmt::format("mesh = \"{}\"\ncells = 8\n", box_file(dir)));
   const VoxelsSettings& voxels = scene.model.voxels.at(0);
   EXPECT_EQ(voxels.layers, CellLayers(4, std::vector<std::string>(2, "11111111")));
   EXPECT_EQ(voxels.size, 0.25);
@@ -45,15 +45,15 @@ TEST(MeshScene, BecomesLayersSizeAndSkin) {
   EXPECT_EQ(skin->triangles.size(), 12u);
   EXPECT_THAT(skin->vertices, Contains(Vec3{8.0, 4.0, 2.0}));
   EXPECT_THAT(skin->vertices, Contains(Vec3{0.0, 0.0, 0.0}));
-  const Scene tall =
-      test::parsed(body + fmt::format("mesh = \"{}\"\ncells = 8\nheight = 0.1\nup = \"z\"\n", box_file(dir)));
+  const Scene tall = test::parsed(
+      voxels_table + fmt::format("mesh = \"{}\"\ncells = 8\nheight = 0.1\nup = \"z\"\n", box_file(dir)));
   EXPECT_EQ(tall.model.voxels[0].layers, CellLayers(2, std::vector<std::string>(4, "11111111")));
   EXPECT_NEAR(tall.model.voxels[0].size, 0.05, 1e-15);
 }
 
 TEST(MeshScene, TakesTheEndsOfItsRanges) {
   const test::TemporaryDirectory dir;
-  const std::string mesh = body + fmt::format("mesh = \"{}\"\n", box_file(dir));
+  const std::string mesh = voxels_table + fmt::format("mesh = \"{}\"\n", box_file(dir));
   EXPECT_EQ(test::parsed(mesh + "cells = 1\n").model.voxels[0].layers, (CellLayers{{"1"}}));
   EXPECT_EQ(test::parsed(mesh + "cells = 256\n").model.voxels[0].layers.size(), 128u);
   EXPECT_NEAR(test::parsed(mesh + "cells = 2\nheight = 1e6\n").model.voxels[0].size, 1e6, 1e-3);
@@ -62,7 +62,7 @@ TEST(MeshScene, TakesTheEndsOfItsRanges) {
 }
 
 TEST(MeshScene, SceneThatIsWrittenNeedsNoFile) {
-  const Scene scene = test::parsed(body + "mesh = \"rabbit\"\ncells = 12\n");
+  const Scene scene = test::parsed(voxels_table + "mesh = \"rabbit\"\ncells = 12\n");
   EXPECT_GT(scene.model.voxels[0].skin.size(), 10'000u);
   const std::string text = to_toml(scene);
   EXPECT_THAT(text, testing::Not(HasSubstr("\nmesh =")));
@@ -75,7 +75,7 @@ TEST(MeshScene, SceneThatIsWrittenNeedsNoFile) {
 TEST(MeshScene, FilesAreRelativeToTheScene) {
   const test::TemporaryDirectory dir;
   box_file(dir);
-  dir.write("scene.toml", body + "mesh = \"box.obj\"\ncells = 4\n");
+  dir.write("scene.toml", voxels_table + "mesh = \"box.obj\"\ncells = 4\n");
   const auto scene = load_scene(dir.file("scene.toml"));
   ASSERT_TRUE(scene.ok()) << scene.error().message();
   EXPECT_EQ(scene->model.voxels[0].layers.size(), 2u);
@@ -86,7 +86,7 @@ TEST(MeshScene, FilesAreRelativeToTheScene) {
 }
 
 TEST(MeshScene, ArgumentTakesThePlaceOfLayers) {
-  const Scene scene = test::parsed(body + "size = 0.1\nlayers = [[\"111\"]]\n",
+  const Scene scene = test::parsed(voxels_table + "size = 0.1\nlayers = [[\"111\"]]\n",
                                    {"voxels[0].mesh=rabbit", "voxels[0].cells=10"});
   EXPECT_EQ(scene.model.voxels[0].layers.size(), 10u);
   EXPECT_NEAR(scene.model.voxels[0].size, 0.211, 1e-12);
@@ -103,7 +103,8 @@ TEST(MeshScene, CellsAreOfTheBodysMaterial) {
 
 TEST(MeshScene, SaysWhatItDid) {
   std::vector<std::string> notes;
-  const auto scene = parse_scene(body + "mesh = \"rabbit\"\ncells = 24\n", "s.toml", {}, {.notes = &notes});
+  const auto scene =
+      parse_scene(voxels_table + "mesh = \"rabbit\"\ncells = 24\n", "s.toml", {}, {.notes = &notes});
   ASSERT_TRUE(scene.ok());
   EXPECT_THAT(notes, Each(StartsWith("rabbit: ")));
   EXPECT_THAT(notes, Contains(HasSubstr("1489 of 14 × 24 × 18 cells")));
@@ -128,7 +129,7 @@ TEST(MeshScene, ErrorsPointAtTheirPlace) {
       {"skin = \"AAAA\"\n", "scene.toml:3:8: ", "it is no mesh"},
   };
   for (const auto& [keys, place, message] : cases) {
-    const std::string said = test::rejection(body + keys);
+    const std::string said = test::rejection(voxels_table + keys);
     EXPECT_THAT(said, StartsWith(place)) << keys;
     EXPECT_THAT(said, HasSubstr(message)) << keys;
   }
@@ -154,9 +155,9 @@ TEST(MeshScene, ImportMakesASceneThatLoads) {
 TEST(MeshScene, ModelBindsTheSkinToItsParticles) {
   const test::TemporaryDirectory dir;
   const Scene scene = test::parsed(
-      body + fmt::format("mesh = \"{}\"\ncells = 8\nposition = [1.0, 5.0, 2.0]\nrotation = {{ axis = "
-                         "[0, 0, 1], angle = 90.0 }}\n[[cube]]\n",
-                         box_file(dir)));
+      voxels_table + fmt::format("mesh = \"{}\"\ncells = 8\nposition = [1.0, 5.0, 2.0]\nrotation = {{ axis = "
+                                 "[0, 0, 1], angle = 90.0 }}\n[[cube]]\n",
+                                 box_file(dir)));
   const auto model = build_model(scene.model);
   ASSERT_TRUE(model.ok());
   ASSERT_EQ(model->bodies.size(), 2u);
