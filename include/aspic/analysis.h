@@ -52,6 +52,9 @@ class ASPIC_API ActuatorWork {
   /// drive signals. Nothing without actuators. Where `model` has other constants than before, their change
   /// counts; where it has other actuated classes, nothing is added. The rest as for measure().
   std::optional<double> add(const Model& model, const State& state, const Inputs& inputs = {});
+  /// Appends what a work of one state alone holds, the next of the run: states may be measured apart, on any
+  /// thread, and added up in their order later. The rest as for add(); nothing where `next` has no state.
+  std::optional<double> append(const ActuatorWork& next);
 
  private:
   struct Load {

@@ -79,14 +79,20 @@ std::optional<double> ActuatorWork::add(const Model& model, const State& state, 
         length(state.position[spring.a] - state.position[spring.b]) - r[spring.spring_class];
     if (!(c.cord && stretch < 0.0)) pulls[spring.spring_class] += c.stiffness * stretch;
   }
-  std::vector<Load> now;
-  now.reserve(model.actuation.classes.size());
+  ActuatorWork next;
+  next.before_.reserve(model.actuation.classes.size());
   for (const ActuatedClass& of : model.actuation.classes)
-    now.push_back({r[of.spring_class], pulls[of.spring_class]});
+    next.before_.push_back({r[of.spring_class], pulls[of.spring_class]});
+  return append(next);
+}
+
+std::optional<double> ActuatorWork::append(const ActuatorWork& next) {
+  const std::vector<Load>& now = next.before_;
+  if (now.empty()) return std::nullopt;
   // A change of phases may have made other classes.
   for (std::size_t n = 0; before_.size() == now.size() && n < now.size(); ++n)
     sum_ -= 0.5 * (before_[n].pull + now[n].pull) * (now[n].length - before_[n].length);
-  before_ = std::move(now);
+  before_ = now;
   return sum_;
 }
 

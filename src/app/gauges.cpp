@@ -22,25 +22,40 @@
 namespace aspic::app {
 namespace {
 
+using Sampled = double (*)(const EnergySample&);
 struct Curve {
   const char* name;
   ImU32 colour;
-  double (*value)(const Measures&);
+  Sampled value;
+  bool counts = true;  ///< for the scale: work grows and grows
 };
-/// The last one where bodies can touch.
-constexpr std::array<Curve, 5> energy_curves = {
-    {{"kinetic", IM_COL32(242, 176, 92, 255), [](const Measures& m) { return m.kinetic; }},
-     {"elastic", IM_COL32(120, 205, 140, 255), [](const Measures& m) { return m.elastic; }},
-     {"gravitational", IM_COL32(110, 165, 240, 255), [](const Measures& m) { return m.gravitational; }},
-     {"total", IM_COL32(230, 232, 236, 255), [](const Measures& m) { return m.total(); }},
-     {"of contact", IM_COL32(225, 130, 190, 255),
-      [](const Measures& m) { return m.contact.value_or(0.0); }}}};
+
+/// The last two where bodies can touch, and where actuators act.
+std::vector<Curve> energy_curves(const Model& model) {
+  std::vector<Curve> curves = {
+      {"kinetic", IM_COL32(242, 176, 92, 255), [](const EnergySample& s) { return s.measures.kinetic; }},
+      {"elastic", IM_COL32(120, 205, 140, 255), [](const EnergySample& s) { return s.measures.elastic; }},
+      {"gravitational", IM_COL32(110, 165, 240, 255),
+       [](const EnergySample& s) { return s.measures.gravitational; }},
+      {"total", IM_COL32(230, 232, 236, 255), [](const EnergySample& s) { return s.measures.total(); }}};
+  if (bodies_touch(model))
+    curves.push_back({"of contact", IM_COL32(225, 130, 190, 255),
+                      [](const EnergySample& s) { return s.measures.contact.value_or(0.0); }});
+  if (!model.actuation.empty())
+    curves.push_back({"done by actuators", IM_COL32(90, 205, 210, 255),
+                      [](const EnergySample& s) { return s.work.value_or(0.0); }, false});
+  return curves;
+}
 
 constexpr std::array<Curve, 4> momentum_curves = {
-    {{"p, along x", IM_COL32(238, 120, 110, 255), [](const Measures& m) { return m.momentum.x; }},
-     {"p, along y", IM_COL32(120, 205, 140, 255), [](const Measures& m) { return m.momentum.y; }},
-     {"p, along z", IM_COL32(110, 165, 240, 255), [](const Measures& m) { return m.momentum.z; }},
-     {"|p|", IM_COL32(230, 232, 236, 255), [](const Measures& m) { return length(m.momentum); }}}};
+    {{"p, along x", IM_COL32(238, 120, 110, 255),
+      [](const EnergySample& s) { return s.measures.momentum.x; }},
+     {"p, along y", IM_COL32(120, 205, 140, 255),
+      [](const EnergySample& s) { return s.measures.momentum.y; }},
+     {"p, along z", IM_COL32(110, 165, 240, 255),
+      [](const EnergySample& s) { return s.measures.momentum.z; }},
+     {"|p|", IM_COL32(230, 232, 236, 255),
+      [](const EnergySample& s) { return length(s.measures.momentum); }}}};
 
 /// The ground of a plot over the time of some samples.
 template <class Sample>
@@ -99,7 +114,7 @@ struct Pointed {
 struct Line {
   const std::deque<EnergySample>* samples;
   ImU32 colour;
-  double (*value)(const Measures&);
+  Sampled value;
   bool counts = true;  ///< for the scale; one that does not may leave the plot
 };
 
@@ -107,7 +122,7 @@ struct Line {
 double largest(std::span<const Line> lines) {
   double most = 0.0;
   for (const Line& line : lines)
-    for (const EnergySample& s : *line.samples) most = std::max(most, std::abs(line.value(s.measures)));
+    for (const EnergySample& s : *line.samples) most = std::max(most, std::abs(line.value(s)));
   return std::isfinite(most) ? most : 0.0;
 }
 
@@ -124,8 +139,8 @@ std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> li
   for (const Line& line : lines) {
     if (!line.counts && !all_count) continue;
     for (const EnergySample& s : *line.samples) {
-      low = std::min(low, line.value(s.measures));
-      high = std::max(high, line.value(s.measures));
+      low = std::min(low, line.value(s));
+      high = std::max(high, line.value(s));
     }
   }
   if (!(high > low) || !std::isfinite(high - low)) return std::nullopt;
@@ -158,8 +173,8 @@ std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> li
     const std::size_t stride =
         std::max<std::size_t>(samples.size() / static_cast<std::size_t>(std::max(size.x, 1.0f)), 1);
     for (std::size_t i = 0; i < samples.size(); i += stride)
-      draw.PathLineTo(place(samples[i].time, line.value(samples[i].measures)));
-    draw.PathLineTo(place(samples.back().time, line.value(samples.back().measures)));
+      draw.PathLineTo(place(samples[i].time, line.value(samples[i])));
+    draw.PathLineTo(place(samples.back().time, line.value(samples.back())));
     draw.PathStroke(line.colour, 0, static_cast<float>(1.5 * plot.scale));
   }
   draw.PopClipRect();
@@ -247,7 +262,7 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
   for (std::size_t i = 0; i < comparison.count(); ++i) {
     const EnergySample* const sample = comparison.run(i).samples().nearest(shown);
     runs.push_back(comparison_view.name(i));
-    values.push_back(sample ? with_prefix(without_noise(curve.value(sample->measures), size), unit, 5) : "-");
+    values.push_back(sample ? with_prefix(without_noise(curve.value(*sample), size), unit, 5) : "-");
     // Another time step comes to another time, and a run that diverged to none later.
     if (sample && std::abs(sample->time - shown) > 1e-6 * std::max(shown, 1e-3))
       values.back() += fmt::format(" at {:.4g} s", sample->time);
@@ -278,7 +293,7 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
     if (comparison.active())
       return compared_runs(gui, name, curves, compared, unit, help, comparison_view, run);
     std::vector<Line> lines;
-    for (const Curve& c : curves) lines.push_back({&s.samples().energies(), c.colour, c.value});
+    for (const Curve& c : curves) lines.push_back({&s.samples().energies(), c.colour, c.value, c.counts});
     const double now = comparison.clock().time();
     const auto pointed = plot(gui, name, lines, unit, help, now);
     if (pointed && pointed->pressed) run.go_to(pointed->time);
@@ -287,19 +302,17 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
     figure(pointed ? "t under the mouse" : "t", sample ? fmt::format("{:.4g} s", sample->time) : "-", help);
     const double size = largest(lines);
     for (const Curve& c : curves) {
-      figure(c.name,
-             sample ? with_prefix(without_noise(c.value(sample->measures), size), unit) : std::string("-"),
+      figure(c.name, sample ? with_prefix(without_noise(c.value(*sample), size), unit) : std::string("-"),
              help, ImGui::ColorConvertU32ToFloat4(c.colour));
       gui.mark("{}/{}", name, c.name);
     }
   };
-  const bool touch = bodies_touch(s.model());
-  show("energy/plot", std::span(energy_curves).first(touch ? 5 : 4), comparison_view.compared[0], "J",
+  show("energy/plot", energy_curves(s.model()), comparison_view.compared[0], "J",
        "Energies of the run over time [J]. The gravitational one is zero at the origin; that of contact is "
-       "the part of the elastic one that pushes between bodies hold. A click goes to that "
-       "moment. At rest explicit Euler keeps a little kinetic energy: within a step gravity and contact act "
-       "one "
-       "after the other.");
+       "the part of the elastic one that pushes between bodies hold. What actuators did is their work since "
+       "the first point of the plot, whose curve leaves it. A click goes to that moment. At rest explicit "
+       "Euler keeps a little "
+       "kinetic energy: within a step gravity and contact act one after the other.");
   if (!folded(gui, layout, "Energy", "momentum", "Momentum over time.")) return;
   show("energy/momentum", momentum_curves, comparison_view.compared[1], "N·s",
        "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude. A click goes to "

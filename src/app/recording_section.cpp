@@ -89,7 +89,7 @@ void states_widget(Gui& gui, FilmSettings& film) {
 Status write_series(const std::string& path, Overwrite overwrite, const std::deque<EnergySample>& samples) {
   ASPIC_TRY(auto series, SeriesWriter::create(path, overwrite));
   for (const EnergySample& sample : samples) {
-    ASPIC_CHECK(series.add(sample.step, sample.time, sample.measures));
+    ASPIC_CHECK(series.add(sample.step, sample.time, sample.measures, {}, sample.work));
   }
   return series.finish();
 }

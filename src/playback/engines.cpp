@@ -44,8 +44,11 @@ Status Engines::set_constants(SharedModel model) {
 }
 
 EnergySample Engines::measured(const State& state) const {
-  return {static_cast<double>(state.step) * model_->simulation.timestep,
-          measure(*model_, state, leader_.solver->inputs()), state.step};
+  const Inputs& inputs = leader_.solver->inputs();
+  EnergySample sample = {static_cast<double>(state.step) * model_->simulation.timestep,
+                         measure(*model_, state, inputs), state.step};
+  sample.actuators.add(*model_, state, inputs);
+  return sample;
 }
 
 Result<JobResult> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled) {

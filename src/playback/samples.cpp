@@ -33,15 +33,36 @@ const EnergySample* Samples::nearest(double time) const {
 }
 
 void Samples::add(const EnergySample& sample) {
-  const auto after = std::ranges::lower_bound(energies_, sample.time, {}, &EnergySample::time);
-  if (after != energies_.end() && after->time == sample.time)
-    *after = sample;
+  auto place = std::ranges::lower_bound(energies_, sample.time, {}, &EnergySample::time);
+  if (place != energies_.end() && place->time == sample.time)
+    *place = sample;
   else
-    energies_.insert(after, sample);
+    place = energies_.insert(place, sample);
+  add_up_work(static_cast<std::size_t>(place - energies_.begin()));
   if (energies_.size() <= most_samples) return;
   std::deque<EnergySample> thinner;
   for (std::size_t i = 0; i < energies_.size(); i += 2) thinner.push_back(energies_[i]);
   energies_ = std::move(thinner);
+}
+
+/// Of a sample that is new, and of those after it: between these it stays what it was.
+void Samples::add_up_work(std::size_t from) {
+  const auto between = [&](std::size_t n) {
+    ActuatorWork work = energies_[n - 1].actuators;
+    return work.append(energies_[n].actuators);
+  };
+  const auto sum = [&](std::size_t n) -> std::optional<double> {
+    if (n == 0) return ActuatorWork().append(energies_[0].actuators);
+    const auto added = between(n);
+    return added ? std::optional(energies_[n - 1].work.value_or(0.0) + *added) : std::nullopt;
+  };
+  energies_[from].work = sum(from);
+  if (from + 1 == energies_.size()) return;
+  const double was = energies_[from + 1].work.value_or(0.0);
+  energies_[from + 1].work = sum(from + 1);
+  const double more = energies_[from + 1].work.value_or(0.0) - was;
+  for (std::size_t n = from + 2; n < energies_.size(); ++n)
+    if (energies_[n].work) *energies_[n].work += more;
 }
 
 void Samples::compare(double time, const State& leader, const State& shadow, bool one_diverged) {

@@ -2,6 +2,7 @@
 // What the plots show of a run: energies, and the difference of two backends.
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "aspic/analysis.h"
 #include "aspic/state.h"
@@ -13,6 +14,8 @@ struct EnergySample {
   double time = 0.0;  ///< [s]
   Measures measures;
   std::uint64_t step = 0;
+  ActuatorWork actuators = {};      ///< of this state alone
+  std::optional<double> work = {};  ///< of actuators since the first sample [J], which Samples adds up
 };
 
 /// How far the two backends of shadow mode were apart at one time.
@@ -50,6 +53,8 @@ class Samples {
   void clear();
 
  private:
+  void add_up_work(std::size_t from);
+
   std::deque<EnergySample> energies_;
   std::deque<DifferenceSample> differences_;
   bool ever_differed_ = false;

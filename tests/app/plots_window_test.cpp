@@ -1,4 +1,5 @@
 // The plots of energy and momentum in the real window.
+#include <cmath>
 #include <map>
 
 #include "app/stage.h"
@@ -24,6 +25,25 @@ TEST_F(Plots, AClickInThePlotGoesToThatMoment) {
   EXPECT_NEAR(simulation().time(), energies.front().time + 0.5 * span, 0.02 * span);
   EXPECT_LT(plot.top, plot.bottom);
   EXPECT_FALSE(simulation().running());
+}
+
+TEST_F(Plots, ActuatorsHaveACurveOfTheirWork) {
+  open("worm", {}, "reference");
+  simulation().set_running(true);
+  frames_to_step(300);
+  simulation().set_running(false);
+  ASSERT_TRUE(simulation().settle().ok());
+  frames(2);
+  EXPECT_TRUE(has("energy/plot/total"));
+  EXPECT_TRUE(has("energy/plot/done by actuators"));
+  const auto& energies = simulation().samples().energies();
+  EXPECT_EQ(energies.front().work, 0.0);
+  EXPECT_GT(std::abs(energies.back().work.value_or(0.0)), 1.0);
+  close();
+  open("cube-plane", {}, "reference");
+  frames(2);
+  EXPECT_TRUE(has("energy/plot/total"));
+  EXPECT_FALSE(has("energy/plot/done by actuators"));
 }
 
 TEST_F(Plots, PlotsOfTwoRunsHaveTheSamePoints) {
