@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "model/terrain.h"
 #include "support/actuated.h"
 #include "support/equality_cases.h"
@@ -31,6 +33,13 @@ ModelSettings with_balls(ModelSettings settings) {
   const Vec3 top = settings.cubes[0].position + Vec3{0.1, 2.0, 0.1};
   settings.balls.push_back({0.5, 4.0, top + Vec3{0.0, 0.495, 0.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 9.0}});
   settings.balls.push_back({0.4, 2.0, top + Vec3{0.1, 1.385, 0.0}, {0.0, -9.0, 0.0}, {}});
+  return settings;
+}
+
+/// Without contact between bodies balls meet particles, else faces.
+ModelSettings with_balls_on_particles(ModelSettings settings) {
+  settings = with_balls(std::move(settings));
+  settings.contact.bodies = false;
   return settings;
 }
 
@@ -137,6 +146,7 @@ const std::vector<KernelVariant>& kernel_variants() {
     for (const Integrator method : {Integrator::explicit_euler, Integrator::implicit_euler}) {
       variants.add("plane, with balls", with_balls(cube_on(method, plane)), exact);
       variants.add("plane, with balls", with_balls(cube_on(method, plane)), gather);
+      variants.add("plane, with balls on particles", with_balls_on_particles(cube_on(method, plane)), exact);
       for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {
         GpuOptions searching = exact;
         searching.ball_search = search;
@@ -148,8 +158,10 @@ const std::vector<KernelVariant>& kernel_variants() {
                        struck(with_net(cube_on(Integrator::explicit_euler, plane))), exact);
     for (const Integrator method : {Integrator::midpoint, Integrator::implicit_euler})
       variants.add("plane, struck by a cube", struck(cube_on(method, plane)), exact);
-    ModelSettings balls = with_balls(cube_on(Integrator::explicit_euler, plane));
+    ModelSettings balls = with_balls_on_particles(cube_on(Integrator::explicit_euler, plane));
     for (const TerrainShapeRow& shape : terrain_shapes) balls.terrain.emplace_back().shape = shape.value;
+    variants.add("all terrains, with balls on particles", balls, exact);
+    balls.contact.bodies = true;
     variants.add("all terrains, with balls", balls, exact);
     return std::move(variants.made);
   }();
