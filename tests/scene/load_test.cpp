@@ -237,9 +237,9 @@ TEST(Builtin, ScenesLoadAndBuild) {
   }
   EXPECT_THAT(
       names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus",
-                                  "cube-hole", "elevator", "cubes-stack", "cubes-tower", "heap", "squeeze", "jelly-in-net",
-                                  "knot", "goal-net", "penalty", "flag", "curtain", "bridge", "swing",
-                                  "jelly-figure", "worm", "walker", "ball-pit", "cube-and-balls",
+                                  "cube-hole", "elevator", "cubes-stack", "cubes-tower", "heap", "squeeze",
+                                  "jelly-in-net", "knot", "goal-net", "penalty", "flag", "curtain", "bridge",
+                                  "swing", "jelly-figure", "worm", "walker", "ball-pit", "cube-and-balls",
                                   "large-cube", "course-2021-plane", "course-2021-tilted-plane",
                                   "course-2021-sphere", "course-2021-bowl", "course-2018"));
 }
