@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr auto patience = std::chrono::seconds(60);
 constexpr const char* window_title = "cube-plane";
 /// Of the window: panels stand on both sides.
-constexpr int width = 1040, height = 600;
+constexpr int width = 1040, height = 640;
 
 std::string output_of(const std::string& command) {
   std::FILE* const pipe = ::popen(command.c_str(), "r");
@@ -206,9 +206,7 @@ class Events : public Stage {
 
 TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
   app::KeptState kept = one_picture_a_step(find_film_format("png"));
-  // The terrain's shapes are in sight below the scenes.
-  kept.layout.text_size = 0.75;
-  for (const char* const above : {"Simulation", "Springs"}) kept.layout.sections[above] = false;
+  kept.layout.text_size = 0.75;  // the terrain's shapes are in sight below the scenes
   const auto boxes = widgets(kept);
   keep(kept);
   start();
@@ -248,6 +246,7 @@ TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
   int film = 6;
   EXPECT_TRUE(waited_for([&] { return still(film++) == before; })) << "Home comes back to the bit";
   EXPECT_THAT(title(), testing::StartsWith("cube-plane - "));
+  ASSERT_LT(boxes.at("terrain/sphere").bottom, height - 20.0) << "above the status line";
   click_at(boxes.at("terrain/sphere"));
   EXPECT_TRUE(waited_for([&] { return title().starts_with("cube-plane (changed)"); })) << title();
   ask_to_close();
@@ -276,7 +275,7 @@ TEST_F(Events, ControlClickTypesIntoANumberAndEveryTapArrives) {
   kept.layout.sections["View"] = kept.layout.sections["View: more"] = true;
   // All rows down to the camera's in sight, in one column.
   kept.layout.sections["Scene"] = false;
-  kept.layout.text_size = 0.75;
+  kept.layout.text_size = 0.75;  // the terrain's shapes are in sight below the scenes
   kept.window->height = 680;
   const auto boxes = widgets(kept);
   keep(kept);
