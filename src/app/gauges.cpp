@@ -309,10 +309,10 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
   };
   show("energy/plot", energy_curves(s.model()), comparison_view.compared[0], "J",
        "Energies of the run over time [J]. The gravitational one is zero at the origin; that of contact is "
-       "the part of the elastic one that pushes between bodies hold. What actuators did is their work since "
-       "the first point of the plot, whose curve leaves it. A click goes to that moment. At rest explicit "
-       "Euler keeps a little "
-       "kinetic energy: within a step gravity and contact act one after the other.");
+       "the part of the elastic one that pushes between bodies hold. What actuators have done is the sum "
+       "of their work since the first point of the plot; it keeps growing, and its curve may leave the plot. "
+       "A click goes to that moment. At rest explicit Euler keeps a little kinetic energy: within a step "
+       "gravity and contact act one after the other.");
   if (!folded(gui, layout, "Energy", "momentum", "Momentum over time.")) return;
   show("energy/momentum", momentum_curves, comparison_view.compared[1], "N·s",
        "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude. A click goes to "

@@ -45,7 +45,7 @@ void Samples::add(const EnergySample& sample) {
   energies_ = std::move(thinner);
 }
 
-/// Of a sample that is new, and of those after it: between these it stays what it was.
+/// Works out the sum at a sample that is new, and shifts those after it: what they add does not change.
 void Samples::add_up_work(std::size_t from) {
   const auto between = [&](std::size_t n) {
     ActuatorWork work = energies_[n - 1].actuators;

@@ -14,7 +14,7 @@ struct EnergySample {
   double time = 0.0;  ///< [s]
   Measures measures;
   std::uint64_t step = 0;
-  ActuatorWork actuators = {};      ///< of this state alone
+  ActuatorWork actuators = {};      ///< of this state alone: 16 bytes for each class of springs that act
   std::optional<double> work = {};  ///< of actuators since the first sample [J], which Samples adds up
 };
 
