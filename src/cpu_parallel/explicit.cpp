@@ -310,10 +310,13 @@ void ExplicitSteps::move_touched(Task& task, const StageMove& stage) {
   alignas(64) float f[3][slice] = {};
   const Forces forces = {{f[0], f[1], f[2]}};
   Moved moved(speed_limit);
-  for (const std::uint32_t& i : own) {
-    put_force(forces, 0, touched_[static_cast<std::size_t>(&i - all.data())]);
-    add_contact(task, stage, {i, 1}, forces);
-    move(stage, {i, 1}, forces, moved);
+  for (std::size_t n = 0; n < own.size();) {
+    // One after the other, they move together.
+    Range part = {own[n], 0};
+    for (; n < own.size() && part.count < slice && own[n] == part.first + part.count; ++n, ++part.count)
+      put_force(forces, part.count, touched_[static_cast<std::size_t>(&own[n] - all.data())]);
+    add_contact(task, stage, part, forces);
+    move(stage, part, forces, moved);
   }
   task.box = around(task.box, moved.box());
   task.sound = task.sound && moved.sound;

@@ -40,20 +40,25 @@ Vector<T> over_own(const TouchPoint& point, const Value& value) {
          static_cast<T>(point.weight[1]) * value(point.own[1]);
 }
 
-/// Whether a point touches a triangle as it sees it now, from either side and whatever else is near, neither
-/// now nor before it has gone by `way` [m] against each of its corners.
+/// How far, up to `most` [m], a point may go against each corner of a triangle before it touches it, from
+/// either side and whatever else is near; 0 or less if not far.
 template <class T>
-bool stays_off(const Sight<T>& seen, const Face<T>& face, bool closed, const TouchConstants<T>& pair, T way) {
-  if (!(seen.L - way > pair.sight)) return false;
-  if (!closed || seen.L - way > pair.depth) return true;
+T free_way(const Sight<T>& seen, const Face<T>& face, bool closed, const TouchConstants<T>& pair, T most) {
+  const T first = std::min(most, seen.L - pair.sight), off = seen.L - pair.depth;
+  if (!closed || first <= off) return first;
   // Left is a touch from inside, for which −z has to become 0.7 L. With the corners its plane moves at the
   // point's foot by κ·way, κ the sum of the foot's absolute barycentric coordinates, and N turns.
-  const T ab = norm3<T>(face.B - face.A), ac = norm3<T>(face.C - face.A), area = norm3<T>(face.g);
+  const T ab = norm3<T>(face.B - face.A), ac = norm3<T>(face.C - face.A), bc = norm3<T>(face.C - face.B);
+  const T area = norm3<T>(face.g), longest = (ab + ac + bc) - std::min({ab, ac, bc});
   const T aside = std::sqrt(std::max(seen.L * seen.L - seen.z * seen.z, T(0)));
-  const T kappa = T(1) + T(4) * aside * (ab + ac) / area;
-  const T turn = T(4) * way * (ab + ac + T(2) * way) / area;
-  return seen.z + T(0.7) * seen.L >
-         std::abs(seen.z) * std::min(T(0.5) * turn * turn, T(2)) + way * (kappa + T(0.7));
+  const T kappa = T(1) + T(2.01) * aside * longest / area;
+  for (T way = first; way > T(0.02) * pair.s; way *= T(0.8)) {
+    const T turn = T(4) * way * (ab + ac + T(2) * way) / area;
+    if (seen.z + T(0.7) * seen.L >
+        std::abs(seen.z) * std::min(T(0.5) * turn * turn, T(2)) + way * (kappa + T(0.7)))
+      return std::max(way, off);
+  }
+  return off;
 }
 
 template <class T>
@@ -83,7 +88,7 @@ template <class T>
 BodyContact<T>::BodyContact(const Model& model, double ahead_step)
     : surfaces_(touch_surfaces(model)),
       table_(model.contact, surfaces_.bodies, ahead_step),
-      near_(model, surfaces_, near_slack),
+      near_(model, surfaces_, near_slack, true),
       h_(static_cast<T>(model.simulation.timestep)),
       rubs_(table_.rubs()),
       timestep_(model.simulation.timestep),
@@ -121,20 +126,19 @@ void BodyContact<T>::ease_apart(const Model& model, bool ahead) {
 template <class T>
 bool BodyContact<T>::begin_step(std::uint64_t step, const Particles& start) {
   time_ = static_cast<T>(static_cast<double>(step) * timestep_);
-  if (!near_holds(start)) {
-    bool close = !known_places_.empty();
+  const auto slack = static_cast<T>(near_.slack()), leeway = static_cast<T>(near_.leeway());
+  const Gone gone = this->gone(start);
+  if (!(gone.far <= leeway && gone.apart <= slack)) {
+    // Of what was not near, nothing has come as near as short lists reach if nothing has gone much further
+    // than the lists of what is near allow.
+    if (!(gone.far <= leeway + T(0.2) * slack && gone.apart <= T(1.4) * slack))
+      for (std::size_t n = 0; n < own_.size(); ++n) short_.begin(n, -1.0);
     known_places_.resize(surface_.size());
-    const T far = static_cast<T>(1.4 * near_.leeway());
     for (std::size_t n = 0; n < surface_.size(); ++n) {
-      const Vector<T> x = start.position(surface_[n].particle), way = x - known_places_[n];
-      close = close && dot3<T>(way, way) <= far * far;
+      const Vector<T> x = start.position(surface_[n].particle);
       known_places_[n] = x;
       places_[surface_[n].point] = {x.x(), x.y(), x.z()};
     }
-    // Of what was not near, nothing has come as near as short lists reach if nothing has gone much further
-    // than the lists of what is near allow.
-    if (!close)
-      for (std::size_t n = 0; n < own_.size(); ++n) short_.begin(n, -1.0);
     near_.make(places_);
     list_used(start);
   }
@@ -142,22 +146,47 @@ bool BodyContact<T>::begin_step(std::uint64_t step, const Particles& start) {
   return !near_.encounters().empty();
 }
 
-/// Whether no particle has moved too far for the lists of what is near.
 template <class T>
-bool BodyContact<T>::near_holds(const Particles& at) const {
-  if (known_places_.size() != surface_.size()) return false;
-  const T most = static_cast<T>(near_.leeway() * near_.leeway());
-  bool holds = true;
+typename BodyContact<T>::Gone BodyContact<T>::gone(const Particles& at) const {
+  constexpr T far = std::numeric_limits<T>::infinity();
+  if (known_places_.size() != surface_.size()) return {far, far};
+  T most = T(0);
+  bool sound = true;
   for (std::size_t n = 0; n < surface_.size(); ++n) {
     const Vector<T> way = at.position(surface_[n].particle) - known_places_[n];
-    holds = holds && dot3<T>(way, way) <= most;
+    const T square = dot3<T>(way, way);
+    sound = sound && square < far;  // what is no number has gone anywhere
+    most = square > most ? square : most;
   }
-  return holds;
+  if (!sound) return {far, far};
+  using Array = Eigen::Array<T, 3, 1>;
+  const auto around = [&](std::uint32_t from, std::uint32_t end) {
+    std::pair<Array, Array> box = {Array::Constant(far), Array::Constant(-far)};
+    for (std::uint32_t n = from; n < end; ++n) {
+      const Array way = (at.position(met_[n]) - met_from_[n]).array();
+      box.first = box.first.min(way);
+      box.second = box.second.max(way);
+    }
+    return box;
+  };
+  T apart = T(0);
+  for (const Meeting& meeting : near_.meetings()) {
+    const auto a = around(meeting.first, meeting.second == meeting.first ? meeting.end : meeting.second);
+    const auto b = around(meeting.second, meeting.end);
+    apart = std::max({apart, (a.second - b.first).maxCoeff(), (b.second - a.first).maxCoeff()});
+  }
+  return {std::sqrt(most), apart};
 }
 
 /// Other encounters are near.
 template <class T>
 void BodyContact<T>::list_used(const Particles& at) {
+  met_.clear();
+  met_from_.clear();
+  for (const std::uint32_t point : near_.met()) {
+    met_.push_back(surfaces_.points[point].carrier[0]);
+    met_from_.push_back(at.position(met_.back()));
+  }
   own_.clear();
   for (const Encounter& near : near_.encounters()) own_.push_back(body_of(near.point));
   short_.reset(near_, own_, at);
@@ -221,15 +250,9 @@ template <class T>
 void BodyContact<T>::put(const Looker& p, SightBatch<T>& batch) const {
   const auto& list = short_[p.n];
   if (!short_.holds(p.n)) return;
-  for (std::size_t n = 0; n < list.count; ++n, ++batch.count) {
-    const auto& corner = surfaces_.triangles[list.triangle[n]].corner;
-    for (std::size_t c = 0; c < 3; ++c) {
-      batch.P[c][batch.count] = p.P[static_cast<Eigen::Index>(c)];
-      batch.N_P[c][batch.count] = p.N[static_cast<Eigen::Index>(c)];
-      batch.corner[c][batch.count] = static_cast<std::int32_t>(corner[c]);
-    }
-    batch.opposing[batch.count] = p.opposing ? T(1) : T(0);
-  }
+  batch.ask(batch.count, list.count, p.P, p.opposing ? std::optional(p.N) : std::nullopt);
+  for (std::size_t n = 0; n < list.count; ++n, ++batch.count)
+    batch.set_corner(batch.count, surfaces_.triangles[list.triangle[n]].corner);
 }
 
 /// Finds the contacts of those in the queue, and empties it.
@@ -329,18 +352,25 @@ void BodyContact<T>::look_at_all(const Looker& p, Piece& piece) {
   bool lasts = true;
   T idle = way;  // touches nothing until it has gone by this; most points do not
   const bool closed = surfaces_.bodies[p.near.body].closed;
-  for (const std::uint32_t t : near_.triangles(p.near)) {
-    const auto& corner = surfaces_.triangles[t].corner;
-    const Vector<T> A = p.at.position(corner[0]), B = p.at.position(corner[1]), C = p.at.position(corner[2]);
-    if (beyond<T>(A, B, C, far, p.P)) continue;
-    const Face<T> face = face_of<T>(A, B, C);
-    if (!face.real) lasts = false;  // it may get an area
-    if (!face.real) continue;
-    around.push_back(sight_of<T>(t, surfaces_.triangles[t].side, face, p.P));
-    while (idle > T(0) && !stays_off<T>(around.back(), face, closed, p.pair, idle + pad))
-      idle = idle > T(0.04) * p.pair.s ? T(0.5) * idle : T(0);
-    if (counts(face, p) && is_candidate(p.near, t)) sights.push_back(around.back());
+  SightBatch<T> batch;
+  for (auto all = near_.triangles(p.near); !all.empty(); all = all.subspan(batch.count)) {
+    batch.count = std::min(all.size(), SightBatch<T>::room);
+    batch.ask(0, batch.count, p.P, std::nullopt);
+    for (std::size_t n = 0; n < batch.count; ++n) batch.set_corner(n, surfaces_.triangles[all[n]].corner);
+    look_(p.at, batch);
+    for (std::size_t n = 0; n < batch.count; ++n) {
+      if (!batch.counts[n]) lasts = false;  // it may get an area
+      if (!batch.counts[n] || !(batch.L[n] <= far)) continue;
+      const std::uint32_t t = all[n];
+      const auto& corner = surfaces_.triangles[t].corner;
+      const Face<T> face =
+          face_of<T>(p.at.position(corner[0]), p.at.position(corner[1]), p.at.position(corner[2]));
+      around.push_back(batch.sight(n, t, surfaces_.triangles[t].side));
+      if (idle > T(0)) idle = free_way<T>(around.back(), face, closed, p.pair, idle + pad) - pad;
+      if (counts(face, p) && is_candidate(p.near, t)) sights.push_back(around.back());
+    }
   }
+  if (idle < T(0.02) * p.pair.s) idle = T(0);
   piece.listed.push_back(p.n);
   if (idle > T(0)) {
     list.spare = lasts ? std::min(static_cast<double>(idle) - short_.way(p.n), list.spare) : -1.0;
@@ -472,8 +502,8 @@ std::uint64_t BodyContact<T>::bytes() const {
   std::uint64_t all = sizeof(*this) + near_.bytes() + normals_.bytes() + short_.bytes() +
                       surfaces_.points.size() * sizeof(TouchPoint) +
                       surfaces_.triangles.size() * (sizeof(TouchTriangle) + 3 * sizeof(std::uint32_t)) +
-                      of(eased_, own_, surface_, known_places_, places_, pieces_, touches_, particles_,
-                         place_of_, inverse_mass_, share_, v1_);
+                      of(eased_, own_, surface_, known_places_, met_, met_from_, places_, pieces_, touches_,
+                         particles_, place_of_, inverse_mass_, share_, v1_);
   for (const Piece& p : pieces_)
     all += of(p.queue, p.ends, p.sights, p.around, p.by_distance, p.touches, p.listed);
   return all;

@@ -151,7 +151,12 @@ class BodyContact {
   };
   static constexpr std::size_t piece_size = 256;
   static std::size_t pieces_of(std::size_t count) { return (count + piece_size - 1) / piece_size; }
-  bool near_holds(const Particles& at) const;
+  /// How far particles have gone since lists of what is near were made, and against each other where bodies
+  /// meet [m].
+  struct Gone {
+    T far, apart;
+  };
+  Gone gone(const Particles& at) const;
   void list_used(const Particles& at);
   void want(std::size_t encounter);
   void find_in(std::size_t piece, const Particles& at);
@@ -193,6 +198,8 @@ class BodyContact {
   };
   std::vector<SurfaceParticle> surface_;  // ascending by both
   std::vector<Vector<T>> known_places_;   // of these, when the lists of what is near were made
+  std::vector<std::uint32_t> met_;        // particles that meetings name
+  std::vector<Vector<T>> met_from_;       // where they were then
   std::vector<Vec3> places_;              // by point
   std::vector<Piece> pieces_;
   std::vector<Touch<T>> touches_;

@@ -77,11 +77,22 @@ class BoxTree {
   std::vector<Node> nodes_;  // a part before its halves
 };
 
+double extent(const Bounds& box) {
+  double most = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) most = std::max(most, box.max[c] - box.min[c]);
+  return most;
+}
+
 /// No pair of the body has a larger margin [m].
 double margin_of(const ContactSettings& contact, const TouchBody& body) {
   TouchBody open = body;
   open.closed = false;
   return touch_pair(contact, body, open, false).margin;
+}
+
+/// The larger margin of points of either and faces of the other [m].
+double margin_between(const ContactSettings& contact, const TouchBody& a, const TouchBody& b, bool same) {
+  return std::max(touch_pair(contact, a, b, same).margin, touch_pair(contact, b, a, same).margin);
 }
 
 }  // namespace
@@ -164,8 +175,11 @@ void TriangleGrid::near(const Vec3& place, double margin, std::vector<std::uint3
   std::sort(found.begin() + before, found.end());
 }
 
-NearTriangles::NearTriangles(const Model& model, const TouchSurfaces& surfaces, double slack)
-    : surfaces_(surfaces), contact_(model.contact), slack_(std::numeric_limits<double>::infinity()) {
+NearTriangles::NearTriangles(const Model& model, const TouchSurfaces& surfaces, double slack, bool meetings)
+    : surfaces_(surfaces),
+      contact_(model.contact),
+      slack_(std::numeric_limits<double>::infinity()),
+      with_meetings_(meetings) {
   std::vector<std::uint32_t> point_of(model.particle_count());
   for (std::uint32_t p = 0; p < surfaces.points.size(); ++p)
     if (surfaces.points[p].single()) point_of[surfaces.points[p].carrier[0]] = p;
@@ -173,6 +187,15 @@ NearTriangles::NearTriangles(const Model& model, const TouchSurfaces& surfaces, 
     corners_.push_back({point_of[t.corner[0]], point_of[t.corner[1]], point_of[t.corner[2]]});
   for (const TouchBody& body : surfaces.bodies) slack_ = std::min(slack_, slack * body.spacing);
   boxes_.resize(surfaces.triangles.size());
+  // With more, bodies have more others about them that they never meet.
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const TouchBody& body : surfaces.bodies) {
+    Bounds box;
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.surface_particles; ++p)
+      box.add(model.initial_position[surfaces.points[p].carrier[0]]);
+    smallest = std::min(smallest, extent(box));
+  }
+  far_slack_ = meetings ? std::clamp(0.5 * smallest, slack_, 4.0 * slack_) : slack_;
   if (!contact_.self) return;
   for (const TouchPoint& point : surfaces.points) {
     const auto at = [&](std::size_t n) { return model.initial_position[point.carrier[n]]; };
@@ -208,6 +231,7 @@ void NearTriangles::build() {
     pad_ = std::max({pad_, 1e-6 * std::abs(all.min[c]), 1e-6 * std::abs(all.max[c])});
 
   find_partners(around);
+  if (with_meetings_) find_meetings(around);
   encounters_.clear();
   triangles_.clear();
   std::uint32_t gridded = std::numeric_limits<std::uint32_t>::max();
@@ -238,12 +262,12 @@ void NearTriangles::find_partners(const std::vector<Bounds>& around) {
   for (std::uint32_t a = 0; contact_.self && a < around.size(); ++a) partners_.push_back({a, a});
   if (contact_.bodies) {
     const BoxTree tree(around);
-    const double widest = most_margin() + slack_ + pad_;
+    const double widest = most_margin() + far_slack_ + pad_;
     for (std::uint32_t a = 0; a < around.size(); ++a) {
       tree.meeting(around[a], widest, [&](std::uint32_t b) {
         if (b <= a) return;
         const double margin =
-            touch_pair(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false).margin + slack_ + pad_;
+            margin_between(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false) + far_slack_ + pad_;
         if (!around[a].meets(around[b], margin)) return;
         partners_.push_back({a, b});
         partners_.push_back({b, a});
@@ -251,6 +275,41 @@ void NearTriangles::find_partners(const std::vector<Bounds>& around) {
     }
   }
   std::ranges::sort(partners_);
+}
+
+/// Of partners, the particles that may carry a point, or be a corner, of what becomes a candidate before any
+/// particle has moved further than it may. All others are further apart than that.
+void NearTriangles::find_meetings(const std::vector<Bounds>& around) {
+  meetings_.clear();
+  met_.clear();
+  const auto longest = [&](const TouchBody& body) {
+    double most = 0.0;
+    for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+      Bounds box;
+      for (const std::uint32_t corner : corners_[t]) box.add(built_[corner]);
+      most = std::max(most, extent(box));
+    }
+    return most;
+  };
+  std::vector<double> edges(surfaces_.bodies.size(), -1.0);  // [m], once they are known
+  const auto add = [&](std::uint32_t of, std::uint32_t other) {
+    const TouchBody& body = surfaces_.bodies[of];
+    if (edges[of] < 0.0) edges[of] = longest(body);
+    // Points on edges, and triangles, are no further from their particles than that.
+    const double margin =
+        margin_between(contact_, body, surfaces_.bodies[other], of == other) + far_slack_ + pad_ + edges[of];
+    for (std::uint32_t p = body.first_point; p < body.first_point + body.surface_particles; ++p)
+      if (around[other].holds(built_[p], margin)) met_.push_back(p);
+  };
+  const auto end = [&] { return static_cast<std::uint32_t>(met_.size()); };
+  for (const auto& [a, b] : partners_) {
+    if (b < a) continue;
+    const std::uint32_t first = end();
+    add(a, b);
+    const std::uint32_t second = a == b ? first : end();
+    if (a != b) add(b, a);
+    meetings_.push_back({first, second, end()});
+  }
 }
 
 /// Points of body a near the triangles of body b, which are in the grid.
@@ -289,7 +348,8 @@ void NearTriangles::drop_neighbours(std::uint32_t point, std::vector<std::uint32
 std::uint64_t NearTriangles::bytes() const {
   return corners_.capacity() * sizeof(corners_[0]) + (rest_.capacity() + built_.capacity()) * sizeof(Vec3) +
          boxes_.capacity() * sizeof(Bounds) + encounters_.capacity() * sizeof(Encounter) +
-         (triangles_.capacity() + found_.capacity()) * sizeof(std::uint32_t);
+         (triangles_.capacity() + found_.capacity() + met_.capacity()) * sizeof(std::uint32_t) +
+         meetings_.capacity() * sizeof(Meeting);
 }
 
 }  // namespace aspic::reference

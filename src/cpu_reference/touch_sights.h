@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "cpu_reference/ball_particles.h"
 #include "cpu_reference/touch_geometry.h"
@@ -11,9 +12,11 @@ namespace aspic::reference {
 
 template <class T>
 struct SightBatch {
-  static constexpr std::size_t room = 256;  ///< a multiple of any number of lanes
+  static constexpr std::size_t room = 256, block = 4;
+  /// As many as may be written behind the last: a multiple of any number of lanes.
+  static constexpr std::size_t behind = 16;
   template <class Value>
-  using Lane = std::array<Value, room>;
+  using Lane = std::array<Value, room + behind>;
 
   std::size_t count = 0;
   // What is asked: a point, its normal if only faces count that turn to it, the corners of a triangle.
@@ -24,6 +27,24 @@ struct SightBatch {
   alignas(64) std::array<Lane<T>, 3> e, N;
   alignas(64) Lane<T> b, c, L, z;
   alignas(64) Lane<std::int32_t> face, counts;
+
+  /// A point looks from `first` on at so many triangles, of those that turn to it if it has a normal. What
+  /// comes behind them is overwritten.
+  void ask(std::size_t first, std::size_t number, const Vector<T>& point,
+           const std::optional<Vector<T>>& normal) {
+    const auto fill = [&](Lane<T>& of, T value) {
+      for (std::size_t n = 0; n < number; n += block)
+        for (std::size_t each = 0; each < block; ++each) of[first + n + each] = value;
+    };
+    for (std::size_t c = 0; c < 3; ++c) {
+      fill(P[c], point[static_cast<Eigen::Index>(c)]);
+      fill(N_P[c], normal ? (*normal)[static_cast<Eigen::Index>(c)] : T(0));
+    }
+    fill(opposing, normal ? T(1) : T(0));
+  }
+  void set_corner(std::size_t n, const std::array<std::uint32_t, 3>& particle) {
+    for (std::size_t c = 0; c < 3; ++c) corner[c][n] = static_cast<std::int32_t>(particle[c]);
+  }
 
   Vector<T> at(const std::array<Lane<T>, 3>& of, std::size_t n) const {
     return {of[0][n], of[1][n], of[2][n]};

@@ -232,29 +232,60 @@ Candidates by_definition(const Model& model, const Field<double>& x) {
   return found;
 }
 
-// The search finds what the definition says, on a path on which its lists are made again now and then.
+// The search finds what the definition says, on paths on which its lists are made again now and then: bodies
+// that shake, fall together, and pass each other.
 TEST(TouchSearch, FindsTheCandidatesOfTheDefinition) {
   ModelSettings settings = test::touching({cube_of(3, {}), cube_of(4, {1.8, 0, 0}, 0.7 * spacing),
                                            test::box_of({2, 9, 2}, {0, 3, 0}), cube_of(2, {40, 0, 0})});
   settings.contact.self = true;
   const Model model = test::build(settings);
-  Contact contact(model);
-  std::mt19937 random(5);
   const auto count = static_cast<Eigen::Index>(model.particle_count());
-  Field<double> x = field<double>(model.initial_position.list(0, model.particle_count()));
-  const Field<double> v = Field<double>::Zero(3, count);
-  std::size_t most = 0;
-  for (int step = 0; step < 60; ++step) {
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const V towards = -0.02 * V(x.col(i));
-      x.col(i) += random_vector(random, 0.01) + towards;
+  for (const auto& [together, own] : {std::pair(0.0, 0.0), std::pair(0.1, 0.004), std::pair(0.0, 0.03)}) {
+    Contact contact(model);
+    std::mt19937 random(5);
+    Field<double> x = field<double>(model.initial_position.list(0, model.particle_count()));
+    const Field<double> v = Field<double>::Zero(3, count);
+    std::size_t most = 0;
+    for (int step = 0; step < 60; ++step) {
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const auto body = static_cast<double>(
+            std::ranges::upper_bound(model.bodies, static_cast<std::uint32_t>(i), {}, &Body::first_particle) -
+            model.bodies.begin());
+        const V towards = -0.02 * (V(x.col(i)) - together * step * V(1, 2, -1));
+        x.col(i) += random_vector(random, together > 0.0 ? 1e-3 : 0.01) + towards + together * V(1, 2, -1) +
+                    own * V(std::sin(body), std::cos(2.0 * body), std::sin(3.0 * body));
+      }
+      contact.begin_step(0, at(x, v));
+      const Candidates found = found_by(contact);
+      ASSERT_EQ(found, by_definition(model, x)) << "step " << step << ", together " << together;
+      most = std::max(most, found.size());
     }
-    contact.begin_step(0, at(x, v));
-    const Candidates found = found_by(contact);
-    ASSERT_EQ(found, by_definition(model, x)) << "step " << step;
-    most = std::max(most, found.size());
+    EXPECT_GT(most, 5000u);
   }
-  EXPECT_GT(most, 5000u);
+}
+
+// The faces of a cloth push from further away than those of what is in front of it.
+TEST(TouchSearch, FindsWhatIsInReachOfAClothAlone) {
+  ModelSettings settings = test::touching({});
+  ClothSettings& cloth = settings.cloths.emplace_back();
+  cloth.particles = {5, 5};
+  cloth.size = {4 * spacing, 4 * spacing};
+  cloth.position = {};
+  cloth.rotation = {{1.0, 0.0, 0.0}, 90.0};
+  VoxelsSettings& block = settings.voxels.emplace_back();
+  block.size = spacing;
+  block.layers.assign(2, CellLayers::value_type(2, "11"));
+  settings.contact.body_gap = 1.0;
+  for (const double height : {-3.3, 3.3}) {
+    block.position = {0.0, height * spacing, 0.0};
+    const Model model = test::build(settings);
+    Contact contact(model);
+    const Field<double> x = field<double>(model.initial_position.list(0, model.particle_count()));
+    contact.begin_step(0, at(x, x));
+    const Candidates found = found_by(contact);
+    EXPECT_EQ(found, by_definition(model, x));
+    EXPECT_FALSE(found.empty());
+  }
 }
 
 // Friction divides masses so that no pass of it adds kinetic energy, and keeps within the cone.
