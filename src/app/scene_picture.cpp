@@ -155,14 +155,14 @@ Result<PictureOptions> ScenePicture::options_of(const Content& content, bool leg
   if (film) options.text_height = film->text_height;
   options.shadows = shadows;
   options.axes = legend || film;
-  // Of the very state that is drawn.
+  // Of the very state that is drawn, and with the inputs that acted in it.
   if (options.view.arrows.any() && !kept()) ASPIC_CHECK(refresh());
-  if (!ghost)
-    arrows_ = arrows_of(simulation_.model(), shown_state(), options.view.arrows, simulation_.inputs());
-  options.arrows = arrows_;
   const Playback& playback = simulation_.playback();
-  options.channels = playback.at_end() ? simulation_.inputs().channels
-                                       : playback.history().inputs_at(playback.here()).channels;
+  const Inputs& inputs =
+      playback.at_end() ? simulation_.inputs() : playback.history().inputs_at(playback.here());
+  if (!ghost) arrows_ = arrows_of(simulation_.model(), shown_state(), options.view.arrows, inputs);
+  options.arrows = arrows_;
+  options.channels = inputs.channels;
   options.highlight = content.marks;
   return options;
 }

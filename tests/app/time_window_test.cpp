@@ -91,6 +91,19 @@ TEST_P(TimeOnBackend, APullIsAnInputThatComesBack) {
   EXPECT_NE(hash(), last);
 }
 
+TEST_P(TimeOnBackend, ArrowsOfThePastAreOfTheInputsThen) {
+  open("cube-plane", {"simulation.gravity=[0,0,0]", "view.arrows=[\"external\"]"}, GetParam());
+  run_to(20);
+  const Vec3 place = simulation().snapshot().position[999];
+  simulation().set_hand(Pull{999, place + Vec3{1.0, 1.0, 0.0}, 2000.0, 40.0});
+  run_to(simulation().step() + 20);
+  frames(2);
+  EXPECT_NE(app().picture.arrow_legend().title, "arrows") << "a force has a scale";
+  go_to({simulation().playback().here().stretch, 5});
+  frames(2);
+  EXPECT_EQ(app().picture.arrow_legend().title, "arrows") << "nobody pulled yet";
+}
+
 TEST_P(TimeOnBackend, PinsAndThrownBallsComeAndGoWithTime) {
   open("cube-plane", {"cube[0].position=[0,4,0]"}, GetParam());
   run_to(30);
