@@ -36,14 +36,14 @@ struct SightBatch {
       for (std::size_t n = 0; n < number; n += block)
         for (std::size_t each = 0; each < block; ++each) of[first + n + each] = value;
     };
-    for (std::size_t c = 0; c < 3; ++c) {
-      fill(P[c], point[static_cast<Eigen::Index>(c)]);
-      fill(N_P[c], normal ? (*normal)[static_cast<Eigen::Index>(c)] : T(0));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      fill(P[axis], point[static_cast<Eigen::Index>(axis)]);
+      fill(N_P[axis], normal ? (*normal)[static_cast<Eigen::Index>(axis)] : T(0));
     }
     fill(opposing, normal ? T(1) : T(0));
   }
   void set_corner(std::size_t n, const std::array<std::uint32_t, 3>& particle) {
-    for (std::size_t c = 0; c < 3; ++c) corner[c][n] = static_cast<std::int32_t>(particle[c]);
+    for (std::size_t k = 0; k < 3; ++k) corner[k][n] = static_cast<std::int32_t>(particle[k]);
   }
 
   Vector<T> at(const std::array<Lane<T>, 3>& of, std::size_t n) const {
