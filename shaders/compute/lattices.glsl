@@ -1,12 +1,12 @@
-// Lattices whose springs follow from the particles' indices, and the particles outside them, whose springs are listed.
+// Lattices whose springs follow from the particles' indices, and the particles whose springs are listed.
 uvec3 size_of(Lattice lattice) { return uvec3(lattice.planes, lattice.rows, lattice.row_size); }
 uint particles_of(Lattice lattice) { return lattice.planes * lattice.rows * lattice.row_size; }
 
-// The particle at this place among those outside lattices.
+// The particle at this place among those whose springs are listed.
 uint listed_particle(uint place) {
   uint i = place;
-  for (uint l = 0u; l < lattice_count; ++l) {
-    if (i >= lattices[l].first_particle) i += particles_of(lattices[l]);
+  for (uint l = 0u; l < unlisted_count; ++l) {
+    if (i >= unlisted[l].first) i += unlisted[l].count;
   }
   return i;
 }

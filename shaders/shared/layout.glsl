@@ -11,6 +11,7 @@
 #define BINDING_INCIDENT_START 4  // uint[slices + 1]: where the words of each slice of particles begin
 #define BINDING_INCIDENT 5      // uint[]: per-spring: spring and side; else neighbour and class
 #define BINDING_CONTROL 6       // Control
+#define BINDING_CELLS 7         // uint[], in the kernel of cells only: src/model/cell_blocks.h
 #define BINDING_SPRING_FORCES 7 // vec4[springs]: force on end a [N], signed spring strength s [N]
 #define BINDING_SPRINGS 4       // uvec2[springs], in the per-spring force pass only
 #define BINDING_SPRING_LENGTHS 5  // there alone: rest lengths that change, which others have in INCIDENT_START
@@ -58,6 +59,7 @@
 #define BINDING_PULLS 1
 #define BINDING_POSES 2
 #define BINDING_LATTICES 3
+#define BINDING_CELL_BODIES 4
 #define BINDING_FRAME 1
 #define BINDING_LIGHT_BOXES 2
 
@@ -77,6 +79,12 @@
 #define LATTICE_DIRECTIONS 32
 #define LATTICE_CLASSES 4
 #define MAX_LATTICES 64
+// Bodies of cells, src/model/cell_blocks.h: places of a block, bits of its number in a record, words of a record.
+#define BLOCK_PLACES 4u
+#define BLOCK_BITS 26u
+#define PLAIN_WORDS 3u
+#define MIXED_WORDS 5u
+#define HALF_WORDS(class_width) (5u * (class_width) / 8u)  // of half a pattern
 
 struct Particle {
   vec4 position;  // x [m]; w: inverse mass [1/kg], 0 = pinned
@@ -114,6 +122,25 @@ struct Lattice {
   uint lattice_padding0, lattice_padding1, lattice_padding2;
 };
 
+// Consecutive particles whose springs are in no list: those of a lattice or of a body of cells.
+struct Unlisted {
+  uint first;
+  uint count;
+  uint unlisted_padding0, unlisted_padding1;
+};
+
+// A body of cells: its particles, and its blocks in the map.
+struct CellBody {
+  uint first_particle;
+  uint last_particle;
+  uint first_class;
+  uint first_block;
+  uint last_block;
+  uint row_blocks;    // blocks from one row to the next
+  uint plane_blocks;  // and from one plane
+  uint cell_body_padding;
+};
+
 #if defined(__cplusplus) || defined(ASPIC_LATTICES)
 #ifdef __cplusplus
 struct Lattices {
@@ -121,10 +148,27 @@ struct Lattices {
 layout(std140, binding = BINDING_LATTICES) uniform Lattices {
 #endif
   uint lattice_count;
-  uint listed_count;  // particles outside lattices
-  uint lattices_padding0, lattices_padding1;
+  uint listed_count;  // particles whose springs are in lists
+  uint unlisted_count;
+  uint lattices_padding;
   Direction directions[LATTICE_DIRECTIONS];
-  Lattice lattices[MAX_LATTICES];  // in ascending order of particles
+  Lattice lattices[MAX_LATTICES];  // in ascending order of particles, as those that follow
+  Unlisted unlisted[2 * MAX_LATTICES];
+};
+
+#ifdef __cplusplus
+struct Cells {
+#else
+layout(std140, binding = BINDING_CELL_BODIES) uniform Cells {
+#endif
+  uint plain_first;     // where the records of plain blocks begin, behind the map
+  uint mixed_first;     // those of all others
+  uint patterns_first;  // the patterns of plain blocks
+  uint halves_first;    // and the halves of all others
+  uint plain_count;     // records
+  uint mixed_count;
+  uint cells_padding0, cells_padding1;
+  CellBody cell_bodies[MAX_LATTICES];
 };
 #endif
 

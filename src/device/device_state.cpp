@@ -3,16 +3,18 @@
 #include <algorithm>
 
 #include "device/layout.h"
+#include "model/cell_blocks.h"
 #include "model/springs.h"
 
 namespace aspic {
 namespace {
 
-layout::Lattices table_of(const Model& model, IncidentWords kind) {
+layout::Lattices table_of(const Model& model, IncidentWords kind, const std::vector<WalkedRun>& walked) {
   layout::Lattices table{};
-  table.listed_count = model.particle_count();
-  if (kind != IncidentWords::beside_lattices) return table;
-  table.listed_count -= lattice_particles(model);
+  for (const WalkedRun& run : walked) table.listed_count += run.end - run.first;
+  if (kind != IncidentWords::beside_lattices && kind != IncidentWords::beside_cells) return table;
+  for (std::size_t r = 1; r < walked.size(); ++r)
+    table.unlisted[table.unlisted_count++] = {walked[r - 1].end, walked[r].first - walked[r - 1].end, 0, 0};
   std::size_t n = 0;
   for (const LatticeDirection& o : lattice_directions())
     table.directions[n++].word =
@@ -27,6 +29,73 @@ layout::Lattices table_of(const Model& model, IncidentWords kind) {
     lattice.row_size = static_cast<std::uint32_t>(body.box()->row_size());
   }
   return table;
+}
+
+CellBlocks blocks_of(const Model& model, IncidentWords kind, std::uint64_t block_bytes) {
+  return kind == IncidentWords::beside_cells ? cell_blocks(model, MAX_LATTICES, block_bytes) : CellBlocks();
+}
+
+/// By record: the particles of its block, and of those in which it has neighbours.
+std::vector<IndexRange> particles_near(const Model& model, const CellBlocks& cells,
+                                       const std::vector<std::uint32_t>& records, std::size_t words) {
+  std::vector<IndexRange> near;
+  near.reserve(records.size() / words);
+  for (std::size_t word = 0; word < records.size(); word += words) {
+    const CellBody& taken = cells.bodies[records[word] >> block_bits];
+    const Body& body = model.bodies[taken.body];
+    const std::uint64_t block = records[word] & ((1u << block_bits) - 1), last = taken.block_count - 1,
+                        reach = 2 * (std::uint64_t{taken.plane_blocks} + taken.row_blocks);
+    const auto first_of = [&](std::uint64_t n) { return cells.map[taken.first_block + n] >> block_places; };
+    // A few more of the rows in which they end.
+    const std::uint64_t low = first_of(block - std::min(block, reach)),
+                        high = first_of(std::min(block + reach, last)), few = 2 * block_places,
+                        end = std::uint64_t{body.first_particle} + body.particle_count;
+    near.push_back(
+        {std::max<std::uint64_t>(low, body.first_particle + few) - few, std::min(high + few, end)});
+  }
+  return near;
+}
+
+/// The buffers of bodies of cells, none of which need more than a block.
+Status make_cells(gl::Context& context, const Model& model, const CellBlocks& cells, SpringBuffers& made) {
+  layout::Cells table{};
+  std::vector<std::uint32_t> words;
+  words.reserve(cells.words());
+  const auto append = [&](const std::vector<std::uint32_t>& part) {
+    const auto first = static_cast<std::uint32_t>(words.size());
+    words.insert(words.end(), part.begin(), part.end());
+    return first;
+  };
+  append(cells.map);
+  table.plain_first = append(cells.plain);
+  table.mixed_first = append(cells.mixed);
+  table.patterns_first = append(cells.patterns);
+  table.halves_first = append(cells.halves);
+  table.plain_count = cells.plain_blocks();
+  table.mixed_count = cells.mixed_blocks();
+  std::size_t n = 0;
+  for (const CellBody& taken : cells.bodies) {
+    const Body& body = model.bodies[taken.body];
+    table.cell_bodies[n++] = {body.first_particle,
+                              body.first_particle + body.particle_count - 1,
+                              body.first_class,
+                              taken.first_block,
+                              taken.first_block + taken.block_count - 1,
+                              taken.row_blocks,
+                              taken.plane_blocks,
+                              0};
+  }
+  ASPIC_TRY(made.cells, gl::Buffer::of(context, "cells", words));
+  ASPIC_TRY(made.cell_bodies,
+            gl::Buffer::of(context, "bodies of cells", std::span(&table, 1), gl::BufferKind::uniform));
+  made.class_width = cells.class_width;
+  made.blocks = {cells.plain_blocks(), cells.mixed_blocks()};
+  if (std::uint64_t{model.particle_count()} * sizeof(layout::Particle) <=
+      context.info().limits.storage_block_bytes)
+    return {};
+  made.block_particles = {particles_near(model, cells, cells.plain, plain_words),
+                          particles_near(model, cells, cells.mixed, mixed_words)};
+  return {};
 }
 
 /// Of words whose low `bits` say something else.
@@ -62,10 +131,18 @@ bool has_lattices(const Model& model) {
   return lattices > 0 && lattices <= MAX_LATTICES;
 }
 
-std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind) {
+bool has_cells(const Model& model) {
+  const auto lattices = std::ranges::count_if(model.bodies, [](const Body& body) { return body.box(); });
+  return lattices <= MAX_LATTICES &&
+         std::ranges::any_of(model.bodies, [](const Body& body) { return has_cells(body); });
+}
+
+std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind, std::uint64_t block_bytes) {
   const bool listed = kind == IncidentWords::springs;
-  return sizeof(layout::Lattices) + incident_counts(model, kind).bytes() +
-         (listed ? spring_count(model) * sizeof(layout::uvec2) : 0);
+  const CellBlocks cells = blocks_of(model, kind, block_bytes);
+  return sizeof(layout::Lattices) + incident_counts(model, kind, cells.taken(model)).bytes() +
+         (listed ? spring_count(model) * sizeof(layout::uvec2) : 0) +
+         (cells.any() ? sizeof(layout::Cells) + cells.words() * sizeof(std::uint32_t) : 0);
 }
 
 void IndexRange::take(const IndexRange& other) {
@@ -83,10 +160,15 @@ Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& co
     ASPIC_TRY(made->springs, gl::Buffer::of(context, "springs", springs, buffers));
     made->spring_ends = ends_of(springs, class_bits(model));
   }
-  const layout::Lattices table = table_of(model, kind);
+  const CellBlocks cells = blocks_of(model, kind, context.info().limits.storage_block_bytes);
+  const std::vector<bool> taken = cells.taken(model);
+  made->walked = walked_runs(model, kind, taken);
+  const layout::Lattices table = table_of(model, kind, made->walked);
+  made->listed = table.listed_count;
   ASPIC_TRY(made->lattices,
             gl::Buffer::of(context, "lattices", std::span(&table, 1), gl::BufferKind::uniform));
-  ASPIC_TRY(const IncidentSprings rows, incident_springs(model, kind));
+  if (cells.any()) ASPIC_CHECK(make_cells(context, model, cells, *made));
+  ASPIC_TRY(const IncidentSprings rows, incident_springs(model, kind, taken));
   ASPIC_TRY(made->incident_start, gl::Buffer::of(context, "incident spring rows", rows.start));
   ASPIC_TRY(made->incident, gl::Buffer::of(context, "incident springs", rows.words, buffers));
   made->slices = slices_of(rows, kind == IncidentWords::springs ? 1u : class_bits(model));

@@ -1,5 +1,6 @@
 #pragma once
 // What solvers leave on the device for pictures: the state, and the springs of the model.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -38,20 +39,33 @@ struct SpringBuffers {
   std::vector<SliceWords> slices;  ///< of the words, and one past the last
   std::vector<IndexRange> spring_ends;  ///< particles that each spring_unit of `springs` join
   gl::Buffer lattices;  ///< BINDING_LATTICES, if the words leave lattices out; else a table without any
+  std::vector<WalkedRun> walked;  ///< particles that have words
+  std::uint32_t listed = 0;       ///< how many
+  /// BINDING_CELLS and BINDING_CELL_BODIES: what words beside cells leave out; empty handles where there is
+  /// nothing.
+  gl::Buffer cells, cell_bodies;
+  std::uint32_t class_width = 0;             ///< CellBlocks::class_width
+  std::array<std::uint32_t, 2> blocks = {};  ///< plain and mixed ones with particles
+  /// Of each of them the particles that it and its neighbours have; none where the state fits into a storage
+  /// block.
+  std::array<std::vector<IndexRange>, 2> block_particles;
 
   std::uint64_t bytes() const {
-    return incident_start.bytes() + incident.bytes() + springs.bytes() + lattices.bytes();
+    return incident_start.bytes() + incident.bytes() + springs.bytes() + lattices.bytes() + cells.bytes() +
+           cell_bodies.bytes();
   }
 };
 
-/// Bytes of them, without making them.
-std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind);
+/// Bytes of them, without making them, on a device with storage blocks of so many bytes.
+std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind, std::uint64_t block_bytes);
 
 /// Whether the model has lattices, and not too many for words beside them.
 bool has_lattices(const Model& model);
+/// Whether it has bodies of cells for words beside cells.
+bool has_cells(const Model& model);
 
-/// Errors: as incident_springs and Buffer::create; `buffers`: storage or sliced. Words beside lattices take a
-/// model for which has_lattices().
+/// Errors: as incident_springs and Buffer::create; `buffers`: storage or sliced. Words beside lattices and
+/// beside cells take a model for which has_lattices() and has_cells().
 Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& context, const Model& model,
                                                                  IncidentWords kind, gl::BufferKind buffers);
 
@@ -66,8 +80,8 @@ struct DeviceState {
   const gl::Buffer* balls = nullptr;
   std::uint32_t first_ball = 0;
   std::uint64_t step = 0;  ///< steps since the run's start: how far balls have turned since the last picture
-  /// The model's springs, for colours that show what they do; null, or with words that name springs: pictures
-  /// make their own.
+  /// The model's springs, for colours that show what they do; null, or with words that name springs or leave
+  /// bodies of cells out: pictures make their own.
   const SpringBuffers* springs = nullptr;
   /// Of the inputs that hold, for colours of springs whose rest lengths follow them.
   std::span<const double> channels = {};

@@ -50,13 +50,14 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
   ASPIC_CHECK(pulls_.build(context_));
   ASPIC_CHECK(poses_.build(context_, *model_));
   ASPIC_CHECK(touch_.build(context_, *model_));
+  const IncidentWords words = incident_words(*model_, path_);
   if (const GpuSolver* other = options.share_springs_of) {
     const auto& theirs = other->spring_buffers();
-    if (theirs->context == &context_ && theirs->kind == path_.words && same_springs(other->model(), *model_))
+    if (theirs->context == &context_ && theirs->kind == words && same_springs(other->model(), *model_))
       springs_ = theirs;
   }
   if (!springs_) {
-    ASPIC_TRY(springs_, make_spring_buffers(context_, *model_, path_.words, gl::BufferKind::sliced));
+    ASPIC_TRY(springs_, make_spring_buffers(context_, *model_, words, gl::BufferKind::sliced));
   }
   ASPIC_CHECK(lengths_.build(context_, *model_, *springs_));
   largest_sliced_ = std::max({largest_sliced_, springs_->incident.bytes(), springs_->springs.bytes()});
@@ -212,11 +213,13 @@ Result<gl::Buffer> DeviceSolver::sliced(std::string name, std::uint64_t bytes) {
 
 Result<SlicedPass> DeviceSolver::sliced_pass(KernelOptions kernels, std::string_view path,
                                              std::vector<gl::Binding> bindings, std::uint32_t items,
-                                             const ElementBytes& bytes, const Seen& seen) {
+                                             const ElementBytes& bytes, const Seen& seen,
+                                             std::uint64_t unit_items) {
   std::vector<Window> windows;
   if (windowed()) {
     kernels.defines.push_back({"ASPIC_WINDOWS", "1"});
-    ASPIC_TRY(windows, windows_over(items, context_.info().limits.storage_block_bytes, bytes, seen));
+    ASPIC_TRY(windows,
+              windows_over(items, context_.info().limits.storage_block_bytes, bytes, seen, unit_items));
   }
   ASPIC_TRY(auto made, pass(kernels, path, std::move(bindings)));
   return SlicedPass(std::move(made), items, std::move(windows));

@@ -62,8 +62,10 @@ class DeviceSolver : public GpuSolver {
   /// The state was loaded: its own control words follow.
   virtual void restart() = 0;
 
-  /// Whether the path has cubes to itself here.
-  bool takes_lattices() const { return !path_.lattice_kernel.empty() && has_lattices(*model_); }
+  /// Whether cubes or bodies of cells have no words here.
+  bool takes_lattices() const {
+    return springs_->kind == IncidentWords::beside_lattices || springs_->kind == IncidentWords::beside_cells;
+  }
   gl::Binding lattices() const { return {BINDING_LATTICES, &springs_->lattices, gl::BufferKind::uniform}; }
   /// BINDING_INCIDENT_START of the solver's kernels.
   gl::Binding starts() const {
@@ -76,7 +78,8 @@ class DeviceSolver : public GpuSolver {
   /// The same over `items`, in windows where sliced() arrays are larger than a block.
   Result<SlicedPass> sliced_pass(KernelOptions kernels, std::string_view path,
                                  std::vector<gl::Binding> bindings, std::uint32_t items,
-                                 const ElementBytes& bytes, const Seen& seen);
+                                 const ElementBytes& bytes, const Seen& seen,
+                                 std::uint64_t unit_items = window_unit);
   /// A buffer that sliced passes alone see.
   Result<gl::Buffer> sliced(std::string name, std::uint64_t bytes);
   /// Whether the passes go by windows. Known once all sliced buffers are made.
@@ -152,6 +155,7 @@ struct DeviceMethod {
   /// gpu_bytes() without what all kinds share.
   std::uint64_t (*bytes)(const ModelCounts& counts, Integrator integrator, std::uint64_t block_bytes);
   std::uint64_t particle_bytes;  ///< of its largest array, for each particle
+  bool cells;                    ///< it has kernels that take bodies of cells by blocks
 };
 
 /// Explicit methods, and scenes without particles: every stage one or two dispatches, no read-back inside a
@@ -162,5 +166,8 @@ extern const DeviceMethod newton_method;
 
 /// Without particles only balls are left, which fly by stages.
 const DeviceMethod& device_method(Integrator integrator, std::uint64_t particles);
+
+/// The words of a model's springs on this path.
+IncidentWords incident_words(const Model& model, const ForcePathRow& path);
 
 }  // namespace aspic

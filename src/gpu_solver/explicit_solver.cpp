@@ -37,7 +37,7 @@ class ExplicitSolver final : public DeviceSolver {
   ExplicitSolver(gl::Context& context, SharedModel model, const ForcePathRow& path)
       : DeviceSolver(context, std::move(model), path, 3,
                      {std::string(path.spring_title), std::string(path.lattice_title),
-                      std::string(path.particle_title)}),
+                      std::string(path.cell_title), std::string(path.particle_title)}),
         method_(*free_flight_row(model_->simulation.integrator).staged()) {}
 
   void set_late(bool on) override { late_ = on; }
@@ -52,7 +52,7 @@ class ExplicitSolver final : public DeviceSolver {
     Clock::time_point begun;
   };
   /// Kinds of passes, for the profiler.
-  enum Kind : std::size_t { springs_kind, lattices_kind, particles_kind };
+  enum Kind : std::size_t { springs_kind, lattices_kind, cells_kind, particles_kind };
   std::uint32_t group_size(const GpuOptions& options) const override { return options.group_size; }
   Status build_passes(const KernelOptions& kernels, const GpuOptions& options) override;
   void restart() override;
@@ -61,6 +61,7 @@ class ExplicitSolver final : public DeviceSolver {
   Status carry_out(std::uint64_t steps, bool wait);
   std::uint32_t queue_steps(std::uint32_t count);
   Status build_lattice_pass(KernelOptions kernels, std::uint32_t run, const std::vector<Binding>& bindings);
+  Status build_cell_passes(const KernelOptions& kernels, std::uint32_t run, std::vector<Binding> bindings);
   void dispatch(const std::optional<SlicedPass>& pass, Kind kind, std::span<const SlicedArray> arrays,
                 ReadBy readers) const;
   Status build_rest(const KernelOptions& kernels, std::vector<Binding> bindings);
@@ -89,7 +90,8 @@ class ExplicitSolver final : public DeviceSolver {
   std::uint32_t passes_before_ = 0;  // counts that must have been made before the oldest queue
   std::optional<Error> unusable_;    // the device dropped passes
   bool late_ = false;
-  std::optional<SlicedPass> spring_pass_, lattice_pass_, particle_pass_;  // of each stage
+  // Of each stage.
+  std::optional<SlicedPass> spring_pass_, lattice_pass_, plain_pass_, mixed_pass_, particle_pass_;
 };
 
 Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t run,
@@ -108,6 +110,27 @@ Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t r
             sliced_pass(std::move(kernels), path_.lattice_kernel, bindings, all,
                         {.particle = sizeof(layout::Particle)},
                         path_.tiles ? seen_by_lattice_tiles(*model_) : seen_by_lattice_runs(*model_, run)));
+  return {};
+}
+
+/// Of plain blocks and of mixed ones, as far as there are any.
+Status ExplicitSolver::build_cell_passes(const KernelOptions& kernels, std::uint32_t run,
+                                         std::vector<Binding> bindings) {
+  bindings.push_back({BINDING_CELLS, &springs_->cells});
+  bindings.push_back({BINDING_CELL_BODIES, &springs_->cell_bodies, gl::BufferKind::uniform});
+  std::size_t kind = 0;
+  for (auto* const pass : {&plain_pass_, &mixed_pass_}) {
+    KernelOptions own = kernels;
+    own.defines.push_back({"ASPIC_LATTICE_RUN", std::to_string(run)});
+    if (kind == 1) own.defines.push_back({"ASPIC_MIXED", std::to_string(springs_->class_width)});
+    const std::uint32_t items = springs_->blocks[kind] * (block_places / run);
+    if (items > 0) {
+      ASPIC_TRY(*pass, sliced_pass(std::move(own), path_.cell_kernel, bindings, items,
+                                   {.particle = sizeof(layout::Particle)},
+                                   seen_by_blocks(*springs_, kind, run), block_places / run));
+    }
+    ++kind;
+  }
   return {};
 }
 
@@ -148,17 +171,16 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   const std::uint32_t by_device = context_.info().is_software ? software_run : 1;
   const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
   if (run > 1) stage_kernels.defines.push_back({"ASPIC_WIDE_LOADS", "1"});
-  if (takes_lattices()) {
+  if (takes_lattices() && has_lattices(*model_))
     ASPIC_CHECK(build_lattice_pass(stage_kernels, path_.tiles ? 1 : run, bindings));
-  }
-  const std::uint32_t listed =
-      model_->particle_count() - (takes_lattices() ? lattice_particles(*model_) : 0u);
-  if (listed > 0 || !lattice_pass_) {
-    ASPIC_TRY(particle_pass_, sliced_pass(stage_kernels, path_.particle_kernel, std::move(bindings), listed,
-                                          {.particle = sizeof(layout::Particle),
-                                           .word = sizeof(std::uint32_t),
-                                           .spring = sizeof(layout::vec4)},
-                                          seen_by_listed(*model_, *springs_)));
+  ASPIC_CHECK(build_cell_passes(stage_kernels, run, bindings));
+  if (springs_->listed > 0 || model_->particle_count() == 0) {
+    ASPIC_TRY(particle_pass_,
+              sliced_pass(stage_kernels, path_.particle_kernel, std::move(bindings), springs_->listed,
+                          {.particle = sizeof(layout::Particle),
+                           .word = sizeof(std::uint32_t),
+                           .spring = sizeof(layout::vec4)},
+                          seen_by_listed(*springs_)));
   }
   return balls_.build(context_, *model_, kernels,
                       {&simulation_, &control_, false, poses_.binding(), pulls_.binding()},
@@ -206,13 +228,13 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
   if (touch_.any()) touch_passes_.queue_start(states_[current_], step_index);
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
-  for (const auto* pass : {&spring_pass_, &lattice_pass_, &particle_pass_})
+  for (const auto* pass : {&spring_pass_, &lattice_pass_, &plain_pass_, &mixed_pass_, &particle_pass_})
     if (*pass) (*pass)->program().set(LOCATION_STEP, step_index);
   std::size_t stage_state = current_;
   for (std::uint32_t s = 0; s < stages; ++s) {
     // Stages alternate between the two free buffers so that the last one lands in `end`.
     const std::size_t out = (stages - 1 - s) % 2 == 0 ? end : between;
-    for (const auto* pass : {&lattice_pass_, &particle_pass_})
+    for (const auto* pass : {&lattice_pass_, &plain_pass_, &mixed_pass_, &particle_pass_})
       if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
     if (spring_pass_ && lengths_.any()) spring_pass_->program().set(LOCATION_STAGE, s);
     constexpr std::uint64_t particle = sizeof(layout::Particle), force = sizeof(layout::vec4);
@@ -233,10 +255,12 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
              ReadBy::compute_pass);
     const bool leaves = last_of_queue && s + 1 == stages && !balls_.any();
     const ReadBy readers = leaves ? anyone : ReadBy::compute_pass;
-    // Cubes and all else write different particles.
-    const ReadBy after = rest_pass_ ? ReadBy(ReadBy::compute_pass) : readers;
-    dispatch(lattice_pass_, lattices_kind, arrays, particle_pass_ ? ReadBy::nobody : after);
-    dispatch(particle_pass_, particles_kind, arrays, after);
+    // Cubes, cells and all else write different particles: one barrier does for them.
+    dispatch(lattice_pass_, lattices_kind, arrays, ReadBy::nobody);
+    dispatch(plain_pass_, cells_kind, arrays, ReadBy::nobody);
+    dispatch(mixed_pass_, cells_kind, arrays, ReadBy::nobody);
+    dispatch(particle_pass_, particles_kind, arrays, ReadBy::nobody);
+    gl::barrier(rest_pass_ ? ReadBy(ReadBy::compute_pass) : readers);
     if (touch_.any()) touch_passes_.queue_act(touching, step_index);
     if (rest_pass_) queue_rest(touching, step_index, s, readers);
     stage_state = out;
@@ -359,6 +383,6 @@ std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator, s
 }  // namespace
 
 const DeviceMethod staged_method = {make_explicit_solver, [](const ForcePathRow&) { return true; },
-                                    explicit_bytes, sizeof(layout::Particle)};
+                                    explicit_bytes, sizeof(layout::Particle), true};
 
 }  // namespace aspic

@@ -16,17 +16,21 @@ constexpr ForcePathRow table[] = {
     {.path = ForcePath::lattice,
      .name = "lattice",
      .implicit = true,
-     .words = IncidentWords::beside_lattices,
+     .words = IncidentWords::beside_cells,
      .lattice_kernel = "compute/lattice.comp",
      .lattice_title = "cubes: springs, integration, contact",
+     .cell_kernel = "compute/cells.comp",
+     .cell_title = "cells: springs, integration, contact",
      .particle_kernel = "compute/gather.comp",
      .particle_title = "springs, integration, contact"},
     {.path = ForcePath::tiles,
      .name = "lattice-tiles",
-     .words = IncidentWords::beside_lattices,
+     .words = IncidentWords::beside_cells,
      .lattice_kernel = "compute/lattice_tiles.comp",
      .lattice_title = "cubes, by tiles: springs, integration, contact",
      .tiles = true,
+     .cell_kernel = "compute/cells.comp",
+     .cell_title = "cells: springs, integration, contact",
      .particle_kernel = "compute/gather.comp",
      .particle_title = "springs, integration, contact"},
     {.path = ForcePath::gather,
@@ -56,7 +60,7 @@ std::span<const ForcePathRow> force_paths() {
 
 const ForcePathRow& row_of(ForcePath path, const Model& model) {
   if (path != ForcePath::automatic) return row_of(path);
-  return row_of(has_lattices(model) ? ForcePath::lattice : ForcePath::gather);
+  return row_of(has_lattices(model) || has_cells(model) ? ForcePath::lattice : ForcePath::gather);
 }
 
 std::string_view name_of(ForcePath path) {

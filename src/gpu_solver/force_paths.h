@@ -17,12 +17,15 @@ struct ForcePathRow {
   ForcePath path;
   std::string_view name;  ///< word of --force-path and of reports
   bool implicit = false;  ///< the kernels of implicit Euler take this path too
-  IncidentWords words = IncidentWords::neighbours;
+  IncidentWords words =
+      IncidentWords::neighbours;         ///< of a model and a method that go with them: incident_words()
   std::string_view spring_kernel = {};   ///< one invocation per spring, first in a stage; empty: none
   std::string_view spring_title = {};    ///< of that pass, in profiles
   std::string_view lattice_kernel = {};  ///< complete cubes, to the end of the stage; empty: as all else
   std::string_view lattice_title = {};
   bool tiles = false;  ///< an item of that kernel is a place in a tile, else a run of particles
+  std::string_view cell_kernel = {};  ///< bodies of cells by blocks, likewise
+  std::string_view cell_title = {};
   std::string_view particle_kernel = {};  ///< one invocation per particle, to the end of the stage
   std::string_view particle_title = {};
   std::uint64_t spring_bytes = 0;  ///< device memory that a spring takes in addition to SpringBuffers

@@ -40,6 +40,13 @@ const DeviceMethod& device_method(Integrator integrator, std::uint64_t particles
   return staged_method;
 }
 
+IncidentWords incident_words(const Model& model, const ForcePathRow& path) {
+  if (path.words != IncidentWords::beside_cells) return path.words;
+  if (device_method(model.simulation.integrator, model.particle_count()).cells && has_cells(model))
+    return IncidentWords::beside_cells;
+  return has_lattices(model) ? IncidentWords::beside_lattices : IncidentWords::neighbours;
+}
+
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, SharedModel shared_model,
                                                    const GpuOptions& options) {
   const Model& model = *shared_model;
@@ -64,7 +71,8 @@ std::uint64_t gpu_bytes(const Model& model, ForcePath path, std::uint64_t block_
   const ForcePathRow& wanted = row_of(path, model);
   const ForcePathRow& row = method.takes(wanted) ? wanted : row_of(ForcePath::automatic, model);
   return ball_bytes(counts) + ball_face_bytes(model) + sizeof(layout::Simulation) + pull_table_bytes +
-         method.bytes(counts, integrator, block_bytes) + spring_buffer_bytes(model, row.words) +
+         method.bytes(counts, integrator, block_bytes) +
+         spring_buffer_bytes(model, incident_words(model, row), block_bytes) +
          row.spring_bytes * counts.springs() + length_bytes(model);
 }
 

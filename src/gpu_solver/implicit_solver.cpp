@@ -394,6 +394,6 @@ std::uint64_t implicit_bytes(const ModelCounts& counts, Integrator, std::uint64_
 
 const DeviceMethod newton_method = {make_implicit_solver,
                                     [](const ForcePathRow& path) { return path.implicit; }, implicit_bytes,
-                                    OWN_VECTORS * sizeof(layout::vec4)};
+                                    OWN_VECTORS * sizeof(layout::vec4), false};
 
 }  // namespace aspic

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <iterator>
 
 #include "gpu_solver/layout.h"
 
@@ -55,11 +56,11 @@ IndexRange near(const Body& lattice, const IndexRange& particles) {
           std::min(particles.end + reach, end)};
 }
 
-/// The particle at this place among those outside lattices.
-std::uint64_t listed_particle(const Model& model, std::uint64_t place) {
-  for (const Body& body : model.bodies)
-    if (body.box() && place >= body.first_particle) place += body.particle_count;
-  return place;
+/// The particle at this place among those that have words.
+std::uint64_t listed_particle(const SpringBuffers& springs, std::uint64_t place) {
+  const auto after = std::ranges::upper_bound(springs.walked, place, {}, &WalkedRun::place);
+  const WalkedRun& run = *std::prev(after);
+  return run.first + (place - run.place);
 }
 
 /// Words of these places, and the particles or springs they name.
@@ -75,10 +76,11 @@ void take_words(const SpringBuffers& springs, const IndexRange& places, Window& 
 }  // namespace
 
 Result<std::vector<Window>> windows_over(std::uint64_t items, std::uint64_t block_bytes,
-                                         const ElementBytes& bytes, const Seen& seen) {
+                                         const ElementBytes& bytes, const Seen& seen,
+                                         std::uint64_t unit_items) {
   std::vector<Window> windows;
-  for (std::uint64_t first = 0; first < items; first += window_unit) {
-    Window unit = seen({first, std::min(first + window_unit, items)});
+  for (std::uint64_t first = 0; first < items; first += unit_items) {
+    Window unit = seen({first, std::min(first + unit_items, items)});
     for (IndexRange* range : {&unit.particles, &unit.words, &unit.springs}) *range = from_unit(*range);
     if (!windows.empty()) {
       const Window both = joined(windows.back(), unit);
@@ -146,12 +148,20 @@ Seen seen_by_lattice_tiles(const Model& model) {
   };
 }
 
-Seen seen_by_listed(const Model& model, const SpringBuffers& springs) {
-  return [&model, &springs](IndexRange items) {
-    const bool beside = springs.kind == IncidentWords::beside_lattices;
-    Window window{.items = items, .particles = items};
-    if (beside)
-      window.particles = {listed_particle(model, items.first), listed_particle(model, items.end - 1) + 1};
+Seen seen_by_blocks(const SpringBuffers& springs, std::size_t kind, std::uint32_t run) {
+  return [&springs, kind, run](IndexRange items) {
+    Window window{.items = items};
+    const std::uint64_t runs = block_places / run;
+    for (std::uint64_t record = items.first / runs; record * runs < items.end; ++record)
+      window.particles.take(springs.block_particles[kind][record]);
+    return window;
+  };
+}
+
+Seen seen_by_listed(const SpringBuffers& springs) {
+  return [&springs](IndexRange items) {
+    Window window{.items = items};
+    window.particles = {listed_particle(springs, items.first), listed_particle(springs, items.end - 1) + 1};
     take_words(springs, items, window);
     return window;
   };

@@ -44,10 +44,12 @@ static_assert(window_unit == spring_unit);
 /// What a range of items touches.
 using Seen = std::function<Window(IndexRange items)>;
 
-/// As few windows as cover all items with no part of an array over `block_bytes`. Error (scene_rejected):
-/// springs join particles so far apart in the list that a few of them need more than a block.
+/// As few windows as cover all items with no part of an array over `block_bytes`. `unit_items`: items that
+/// stay together, other than window_unit where there is no array over items. Error (scene_rejected): springs
+/// join particles so far apart in the list that a few of them need more than a block.
 Result<std::vector<Window>> windows_over(std::uint64_t items, std::uint64_t block_bytes,
-                                         const ElementBytes& bytes, const Seen& seen);
+                                         const ElementBytes& bytes, const Seen& seen,
+                                         std::uint64_t unit_items = window_unit);
 
 /// Items are runs of particles of lattices, `run` each; with run 1 particles.
 Seen seen_by_lattice_runs(const Model& model, std::uint32_t run);
@@ -62,8 +64,10 @@ struct TileCounts {
 TileCounts tiles_in(const Body& lattice);
 /// Items are places in tiles of lattices.
 Seen seen_by_lattice_tiles(const Model& model);
+/// Items are runs of `run` places, 1 or 4, of blocks of bodies of cells, plain ones (0) or mixed ones (1).
+Seen seen_by_blocks(const SpringBuffers& springs, std::size_t kind, std::uint32_t run);
 /// Items are the particles whose springs have words, in their order.
-Seen seen_by_listed(const Model& model, const SpringBuffers& springs);
+Seen seen_by_listed(const SpringBuffers& springs);
 /// Items are particles, in lattices or not.
 Seen seen_by_particles(const Model& model, const SpringBuffers& springs);
 /// Items are springs.

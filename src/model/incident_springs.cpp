@@ -33,6 +33,10 @@ void count_lattice(const Lattice& lattice, std::uint32_t* degree) {
   }
 }
 
+bool is_beside(IncidentWords words) {
+  return words == IncidentWords::beside_lattices || words == IncidentWords::beside_cells;
+}
+
 /// Springs at each particle, those of lattices only if they are to be walked by words.
 std::vector<std::uint32_t> degrees(const Model& model, IncidentWords words) {
   std::vector<std::uint32_t> count(model.particle_count(), 0);
@@ -40,37 +44,19 @@ std::vector<std::uint32_t> degrees(const Model& model, IncidentWords words) {
     ++count[spring.a];
     ++count[spring.b];
   }
-  if (words == IncidentWords::beside_lattices) return count;
+  if (is_beside(words)) return count;
   for (const Body& body : model.bodies)
     if (body.box()) count_lattice(*body.box(), count.data() + body.first_particle);
   return count;
 }
 
-/// Consecutive particles that are walked by words.
-struct Run {
-  std::uint32_t first = 0, end = 0;
-  std::uint32_t place = 0;  ///< of the first among all of them
-};
-
-std::vector<Run> runs_of(const Model& model, IncidentWords words) {
-  std::vector<Run> runs = {{}};
-  for (const Body& body : model.bodies) {
-    if (!body.box() || words != IncidentWords::beside_lattices) continue;
-    runs.back().end = body.first_particle;
-    const std::uint32_t place = runs.back().place + runs.back().end - runs.back().first;
-    runs.push_back({body.first_particle + body.particle_count, 0, place});
-  }
-  runs.back().end = model.particle_count();
-  return runs;
-}
-
 /// Where the words of each slice begin, and one past the last.
-std::vector<std::uint64_t> slice_starts(const Model& model, IncidentWords words) {
-  const std::vector<Run> runs = runs_of(model, words);
+std::vector<std::uint64_t> slice_starts(const Model& model, IncidentWords words,
+                                        const std::vector<WalkedRun>& runs) {
   const std::vector<std::uint32_t> degree = degrees(model, words);
   const std::uint32_t walked = runs.back().place + runs.back().end - runs.back().first;
   std::vector<std::uint64_t> start(std::size_t{walked} / spring_slice + (walked % spring_slice > 0) + 1, 0);
-  for (const Run& run : runs) {
+  for (const WalkedRun& run : runs) {
     for (std::uint32_t i = run.first; i < run.end; ++i) {
       std::uint64_t& most = start[(run.place + i - run.first) / spring_slice + 1];
       most = std::max<std::uint64_t>(most, degree[i]);
@@ -97,8 +83,22 @@ std::uint32_t lattice_particles(const Model& model) {
   return count;
 }
 
-IncidentCounts incident_counts(const Model& model, IncidentWords words) {
-  const std::vector<std::uint64_t> start = slice_starts(model, words);
+std::vector<WalkedRun> walked_runs(const Model& model, IncidentWords words, const std::vector<bool>& cells) {
+  std::vector<WalkedRun> runs = {{}};
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const bool by_blocks = words == IncidentWords::beside_cells && !cells.empty() && cells[b];
+    if (!by_blocks && !(body.box() && is_beside(words))) continue;
+    runs.back().end = body.first_particle;
+    const std::uint32_t place = runs.back().place + runs.back().end - runs.back().first;
+    runs.push_back({body.first_particle + body.particle_count, 0, place});
+  }
+  runs.back().end = model.particle_count();
+  return runs;
+}
+
+IncidentCounts incident_counts(const Model& model, IncidentWords words, const std::vector<bool>& cells) {
+  const std::vector<std::uint64_t> start = slice_starts(model, words, walked_runs(model, words, cells));
   return {start.size(), start.back()};
 }
 
@@ -111,26 +111,28 @@ std::uint32_t class_bits(const Model& model) {
   return classes < 2 ? 0u : static_cast<std::uint32_t>(std::bit_width(classes - 1));
 }
 
-Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words) {
-  const bool neighbours = words != IncidentWords::springs;
-  const bool beside = words == IncidentWords::beside_lattices;
+Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words,
+                                         const std::vector<bool>& cells) {
+  const bool neighbours = words != IncidentWords::springs, beside = is_beside(words);
+  const std::vector<WalkedRun> runs = walked_runs(model, words, cells);
+  const std::vector<std::uint64_t> start = slice_starts(model, words, runs);
   if (!neighbours) ASPIC_CHECK(check_spring_words(model));
-  if (neighbours && !(beside && model.listed_springs.empty())) ASPIC_CHECK(check_words(model));
-  const std::vector<std::uint64_t> start = slice_starts(model, words);
+  if (neighbours && !(beside && start.back() == 0)) ASPIC_CHECK(check_words(model));
   ASPIC_CHECK(check_count(model, start.back()));
   const std::uint32_t bits = class_bits(model);
   IncidentSprings rows;
   for (const std::uint64_t first : start) rows.start.push_back(static_cast<std::uint32_t>(first));
   rows.words.assign(start.back(), no_spring);
-  // By particle: where its next word goes.
-  std::vector<std::uint32_t> next(model.particle_count(), 0);
-  for (const Run& run : runs_of(model, words)) {
+  // By particle: where its next word goes; none goes to those that are left out.
+  std::vector<std::uint32_t> next(model.particle_count(), no_spring);
+  for (const WalkedRun& run : runs) {
     for (std::uint32_t i = run.first; i < run.end; ++i) {
       const std::uint32_t place = run.place + i - run.first;
       next[i] = rows.start[place / spring_slice] + place % spring_slice;
     }
   }
   const auto add = [&](std::uint32_t particle, std::uint32_t word) {
+    if (next[particle] == no_spring) return;
     rows.words[next[particle]] = word;
     next[particle] += spring_slice;
   };

@@ -16,6 +16,7 @@ enum class IncidentWords {
   neighbours,       ///< neighbour << class_bits | class
   beside_lattices,  ///< the same, of the particles outside lattices alone, which count as if there were no
                     ///< others
+  beside_cells,     ///< the same, without bodies of cells that kernels take by blocks (cell_blocks.h)
   springs           ///< index of the spring << 1 | (1 at its end b)
 };
 
@@ -36,7 +37,16 @@ struct IncidentCounts {
   std::uint64_t starts = 0, words = 0;
   std::uint64_t bytes() const { return sizeof(std::uint32_t) * (starts + words); }
 };
-IncidentCounts incident_counts(const Model& model, IncidentWords words);
+/// `cells`: of words beside cells, whether each body is left out as well.
+IncidentCounts incident_counts(const Model& model, IncidentWords words, const std::vector<bool>& cells = {});
+
+/// Consecutive particles that have words, and the place of the first of them among all that have.
+struct WalkedRun {
+  std::uint32_t first = 0, end = 0, place = 0;
+};
+/// All of them. `cells` as above.
+std::vector<WalkedRun> walked_runs(const Model& model, IncidentWords words,
+                                   const std::vector<bool>& cells = {});
 
 /// Particles of the model's lattices.
 std::uint32_t lattice_particles(const Model& model);
@@ -48,8 +58,9 @@ std::uint32_t class_bits(const Model& model);
 Status check_spring_words(const Model& model);
 
 /// Errors (scene_rejected): more words than 32 bits can count; words that name neighbours, and more particles
-/// than the bits left by the class can.
-Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words);
+/// than the bits left by the class can. `cells` as above.
+Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words,
+                                         const std::vector<bool>& cells = {});
 
 /// Each spring in two words: end a; end b << class_bits | class. Errors as incident_springs of neighbours.
 Result<std::vector<std::array<std::uint32_t, 2>>> packed_springs(const Model& model);

@@ -23,7 +23,8 @@ constexpr std::array<std::uint32_t, EXTREMES> no_extremes = {0xffffffffu, 0u, 0x
 
 /// Whether a state brings the words that name neighbours.
 bool has_neighbours(const DeviceState& state) {
-  return state.springs && state.springs->kind != IncidentWords::springs;
+  return state.springs && (state.springs->kind == IncidentWords::neighbours ||
+                           state.springs->kind == IncidentWords::beside_lattices);
 }
 
 /// The longest of the lists that begin at `start`.

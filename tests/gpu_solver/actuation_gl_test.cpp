@@ -51,6 +51,21 @@ TEST_F(ActuatedOnTheDevice, HasTheReferencesBits) {
   }
 }
 
+// Classes of cells in 16 bits.
+TEST_F(ActuatedOnTheDevice, CellsOfManyClassesHaveTheReferencesBits) {
+  const Model model = test::build(test::cells_of_many_classes(Integrator::symplectic_euler));
+  GpuOptions options;
+  options.split_stages = true;
+  options.lattice_run = 1;
+  const auto gpu = make_gpu_solver(context(), model, options);
+  ASSERT_TRUE(gpu.ok()) << gpu.error().message();
+  EXPECT_EQ((*gpu)->force_path(), ForcePath::lattice);
+  const auto expected = reference(model);
+  for (Solver* const each : {static_cast<Solver*>(gpu->get()), expected.get()})
+    ASSERT_FALSE((*each->advance(60)).has_value());
+  EXPECT_EQ(*(*gpu)->state(), *expected->state());
+}
+
 // Channels and constants that change between queued steps; a state that is loaded.
 TEST_F(ActuatedOnTheDevice, FollowsInputsConstantsAndLoads) {
   for (const Integrator integrator : {Integrator::midpoint, Integrator::implicit_euler}) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <vector>
 
 #include "aspic/scene.h"
 #include "cpu_reference/reference_solver.h"
@@ -201,9 +202,25 @@ TEST_F(EqualBitsInFull, FourInACornerOfThreeTerrains) {
   }
 }
 
-/// A cube, one whose springs are listed, another cube, and cloth: every body on a path of its own, in one
-/// run.
-Model mixed(Integrator integrator, double timestep, const std::array<int, 3>& first = {5, 5, 5}) {
+/// Two materials, side by side and in turn, and holes; 31 × 7 × 7 points.
+void add_long_cells(ModelSettings& settings) {
+  settings.materials = {{16.0, 33000.0, 0.4, "jelly"}, {30.0, 9000.0, 0.7, "fat"}};
+  VoxelsSettings& voxels = settings.voxels.emplace_back();
+  voxels.size = 0.3;
+  voxels.position = {0.0, 0.9, -14.0};
+  voxels.velocity = {0.0, -2.0, 0.0};
+  voxels.palette = {{"1", "jelly"}, {"2", "fat"}};
+  const std::string full(30, '1'), turns = "121212111222111112222212222222",
+                                   holes = "11..1111111.1111..111111112222";
+  voxels.layers = {{full, full, full, full, full, full},    {turns, full, full, full, turns, full},
+                   {full, turns, full, full, full, full},   {holes, full, holes, full, full, full},
+                   {turns, turns, full, full, full, turns}, {holes, full, full, full, holes, full}};
+}
+
+/// A cube, one whose springs are listed, another cube, and cloth or a body of cells: every body on a path of
+/// its own, in one run.
+Model mixed(Integrator integrator, double timestep, const std::array<int, 3>& first = {5, 5, 5},
+            bool cells = false) {
   ModelSettings settings = test::low_cube(2, integrator, ContactModel::coulomb);
   settings.cubes[0].particles = first;
   settings.simulation.timestep = timestep;
@@ -214,8 +231,12 @@ Model mixed(Integrator integrator, double timestep, const std::array<int, 3>& fi
     settings.cubes.back().position.x += 9.0 * (2.5 - edge);
   }
   settings.cubes[2].pinned.names = {"left-top-front"};
-  settings.cloths.emplace_back();
-  settings.cloths[0].position = {0.0, 0.5, 9.0};
+  if (cells) {
+    add_long_cells(settings);
+  } else {
+    settings.cloths.emplace_back();
+    settings.cloths[0].position = {0.0, 0.5, 9.0};
+  }
   Model model = test::build(settings);
   Body& body = model.bodies[1];
   std::vector<Spring> listed;
@@ -290,14 +311,16 @@ struct Windowed {
   ForcePath path;
   Integrator integrator;
   std::uint64_t block;
-  std::array<int, 3> first = {12, 12, 12};  ///< particles of the first body
+  std::array<int, 3> first = {12, 12, 12};   ///< particles of the first body
+  bool cells = false;                        ///< a long body of cells is the last
+  std::vector<std::uint32_t> runs = {4, 1};  ///< GpuOptions::lattice_run, of explicit methods on lattice
 };
 
 /// Passes go by windows, and see of every array what they need, no more and no less.
 void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed) {
-  const auto& [path, integrator, block, first] = windowed;
+  const auto& [path, integrator, block, first, cells, runs] = windowed;
   const bool solved = integrator == Integrator::implicit_euler;
-  Model model = mixed(integrator, solved ? 1.0 / 60.0 : 0.001, first);
+  Model model = mixed(integrator, solved ? 1.0 / 60.0 : 0.001, first, cells);
   model.contact.bodies = false;  // which needs complete states
   const std::uint64_t steps = solved ? 8 : 40;
   auto reference = std::move(make_reference_solver(model, Precision::single)).value();
@@ -308,8 +331,8 @@ void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed
   for (const bool small : {false, true}) {
     std::optional<SmallBlocks> blocks;
     if (small) blocks.emplace(context, block);
-    for (const std::uint32_t run : {4u, 1u}) {
-      if (run == 1 && (path != ForcePath::lattice || solved)) continue;
+    for (const std::uint32_t run : runs) {
+      if (run != runs.front() && (path != ForcePath::lattice || solved)) continue;
       options.lattice_run = run;
       auto solver = make_gpu_solver(context, model, options);
       ASSERT_TRUE(solver.ok()) << solver.error().message();
@@ -329,6 +352,7 @@ void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed
 TEST_F(EqualBits, ScenesLargerThanABlock) {
   for (const Windowed& windowed :
        {Windowed{ForcePath::lattice, Integrator::explicit_euler, 48u << 10, {40, 6, 9}},
+        {ForcePath::lattice, Integrator::symplectic_euler, 48u << 10, {5, 5, 5}, true, {1}},
         {ForcePath::lattice, Integrator::implicit_euler, 48u << 10},
         {ForcePath::tiles, Integrator::runge_kutta_4, 52u << 10, {40, 6, 9}},
         {ForcePath::gather, Integrator::midpoint, 64u << 10},
@@ -337,10 +361,12 @@ TEST_F(EqualBits, ScenesLargerThanABlock) {
 }
 
 TEST_F(EqualBitsInFull, ScenesLargerThanABlock) {
-  for (const Windowed& windowed : {Windowed{ForcePath::lattice, Integrator::runge_kutta_4, 48u << 10},
-                                   {ForcePath::gather, Integrator::explicit_euler, 48u << 10},
-                                   {ForcePath::gather, Integrator::implicit_euler, 48u << 10},
-                                   {ForcePath::per_spring, Integrator::runge_kutta_4, 160u << 10}})
+  for (const Windowed& windowed :
+       {Windowed{ForcePath::lattice, Integrator::runge_kutta_4, 48u << 10},
+        {ForcePath::lattice, Integrator::midpoint, 48u << 10, {5, 5, 5}, true, {4}},
+        {ForcePath::gather, Integrator::explicit_euler, 48u << 10},
+        {ForcePath::gather, Integrator::implicit_euler, 48u << 10},
+        {ForcePath::per_spring, Integrator::runge_kutta_4, 160u << 10}})
     expect_equal_bits_in_windows(context(), windowed);
 }
 

@@ -6,6 +6,7 @@
 #include "gpu_solver/layout.h"
 #include "model/springs.h"
 #include "support/gl_fixture.h"
+#include "support/lattice_bodies.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -34,6 +35,8 @@ TEST_F(GpuSolverTest, AutomaticPathIsNamed) {
   Model listed = model;
   list_springs(listed);
   EXPECT_EQ(solver_for(listed, ForcePath::automatic)->force_path(), ForcePath::gather);
+  const Model cells = test::with_cells(test::cube_on_plane(2), test::lattice_of("xx,x."));
+  EXPECT_EQ(solver_for(cells, ForcePath::automatic)->force_path(), ForcePath::lattice);
 }
 
 TEST_F(GpuSolverTest, SplittingARunChangesNoBit) {

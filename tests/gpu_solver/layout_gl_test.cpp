@@ -124,6 +124,20 @@ TEST_F(Layout, LatticesMatchTheDriver) {
   }
 }
 
+TEST_F(Layout, CellsMatchTheDriver) {
+  for (const char* kind : {"ASPIC_MIXED", "ASPIC_WIDE_LOADS"}) {
+    const std::vector<gl::Define> defines = {
+        {"ASPIC_LATTICES", "1"}, {"ASPIC_LATTICE_RUN", "1"}, {kind, "1"}};
+    const auto p = gl::Program::compute(context(), gl::ShaderLibrary(), "compute/cells.comp", defines);
+    ASSERT_TRUE(p.ok()) << p.error().message();
+    EXPECT_EQ(Reflection(*p).storage_block_binding("CellWords"), BINDING_CELLS);
+    EXPECT_EQ(Reflection(*p).uniform_block_binding("Cells"), BINDING_CELL_BODIES);
+    EXPECT_EQ(Reflection(*p).uniform_block_data_size("Cells"), bytes(sizeof(layout::Cells)));
+    EXPECT_EQ(Reflection(*p).uniform_offset("cell_bodies[0].first_class"),
+              bytes(offsetof(layout::Cells, cell_bodies) + offsetof(layout::CellBody, first_class)));
+  }
+}
+
 TEST_F(Layout, BallBlocksMatchTheDriver) {
   const gl::Program fly = program("compute/ball_fly.comp");
   EXPECT_EQ(Reflection(fly).storage_block_binding("Balls"), BINDING_BALLS);

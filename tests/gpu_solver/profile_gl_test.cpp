@@ -81,6 +81,22 @@ TEST_F(PassTimes, NameAndCountThePassesOfAnExplicitStep) {
   }
 }
 
+// Blocks of one material and blocks of several are a dispatch each.
+TEST_F(PassTimes, CountTheKindsOfBlocksOfCells) {
+  ModelSettings settings = low_cube(Integrator::symplectic_euler);
+  settings.cubes.clear();
+  settings.materials = {{16.0, 33000.0, 0.4, "jelly"}, {30.0, 9000.0, 0.7, "fat"}};
+  VoxelsSettings& voxels = settings.voxels.emplace_back();
+  voxels.position = {0.0, 9.0, 0.0};
+  voxels.palette = {{"1", "jelly"}, {"2", "fat"}};
+  voxels.layers = {{"1111112222"}};
+  const Model model = test::build(settings);
+  auto solver = solver_for(model, ForcePath::lattice);
+  solver->set_profiling(true);
+  ASSERT_FALSE((*solver->advance(10)).has_value());
+  EXPECT_EQ(counts_of(times_of(*solver)), (Counts{{"cells: springs, integration, contact", 2.0}}));
+}
+
 TEST_F(PassTimes, NameAndCountThePassesOfAnImplicitStep) {
   ModelSettings settings = low_cube(Integrator::implicit_euler);
   settings.simulation.timestep = 0.01;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "model/springs.h"
 #include "support/model_building.h"
 
@@ -91,6 +93,31 @@ TEST(IncidentSpringsOfAModel, BesideLatticesAreThoseOfAllOtherBodies) {
   }
   list_springs(model);
   EXPECT_EQ(incident_springs(model, IncidentWords::beside_lattices)->words, all.words);
+}
+
+// Of bodies of cells those that are left out have no words either.
+TEST(IncidentSpringsOfAModel, BesideCellsAreThoseOfTheBodiesThatRemain) {
+  ModelSettings settings = test::cube_on_plane(4);
+  for (const double x : {20.0, 40.0}) {
+    settings.voxels.emplace_back().layers = {{"11", "1."}};
+    settings.voxels.back().position.x = x;
+  }
+  settings.cloths.emplace_back();
+  const Model model = test::build(settings);
+  std::vector<bool> left_out(model.bodies.size(), false);
+  const auto first =
+      std::ranges::find_if(model.bodies, [](const Body& body) { return body.lattice && !body.box(); });
+  left_out[static_cast<std::size_t>(first - model.bodies.begin())] = true;
+  const IncidentSprings beside = *incident_springs(model, IncidentWords::beside_cells, left_out),
+                        all = *incident_springs(model, IncidentWords::neighbours);
+  std::uint32_t place = 0;
+  for (const Body& body : model.bodies) {
+    if (body.box() || &body == &*first) continue;
+    for (std::uint32_t i = 0; i < body.particle_count; ++i)
+      EXPECT_EQ(words_at(beside, place++), words_at(all, body.first_particle + i));
+  }
+  EXPECT_EQ(place, model.particle_count() - 64u - first->particle_count);
+  EXPECT_EQ(incident_counts(model, IncidentWords::beside_cells, left_out).words, beside.words.size());
 }
 
 TEST(PackedSprings, KeepBothEndsAndTheClass) {

@@ -8,6 +8,7 @@
 #include "model/springs.h"
 #include "render/overlay_text.h"
 #include "render/studio.h"
+#include "support/lattice_bodies.h"
 #include "support/projection.h"
 
 namespace aspic {
@@ -138,14 +139,15 @@ TEST_F(Picture, GpuSolverIsDrawnFromItsOwnBuffer) {
   EXPECT_EQ(draw(model, *state, options, width, height).rgb, moved);
 }
 
-// Colours that show what springs do read the solver's incident words where they name neighbours, else their
-// own; of a whole cube there are none, and the colours are the same.
+// Colours that show what springs do read the solver's incident words where they name neighbours of all bodies
+// but whole cubes, else their own; of a whole cube there are none, and the colours are the same.
 TEST_F(Picture, QuantitiesOfTheSolversBuffersAreThoseOfItsState) {
   Model cube = test::build(test::cube_on_plane(6, 1.2)), listed = cube;
   list_springs(listed);
+  Model cells = test::with_cells(test::cube_on_plane(2, 1.2), test::lattice_of("xxx,x.x,xxx;xxx,xxx,x.."));
   for (const ForcePathRow& path : force_paths()) {
     std::vector<std::vector<std::byte>> seen;
-    for (Model* model : {&cube, &listed}) {
+    for (Model* model : {&cube, &listed, &cells}) {
       GpuOptions gpu;
       gpu.force_path = path.path;
       auto solver = make_gpu_solver(context(), *model, gpu);
@@ -161,14 +163,15 @@ TEST_F(Picture, QuantitiesOfTheSolversBuffersAreThoseOfItsState) {
         const std::uint64_t held = context().bytes_held();
         ASSERT_TRUE(renderer().draw(width, height, (*solver)->device_state(), options).ok());
         const auto own = read();
-        const bool makes_words =
-            model == &listed && path.words == IncidentWords::springs && colour != ViewColour::speed;
+        const bool by_blocks = model == &cells && path.words == IncidentWords::beside_cells,
+                   by_springs = model != &cube && path.words == IncidentWords::springs,
+                   makes_words = (by_blocks || by_springs) && colour != ViewColour::speed;
         const std::uint64_t words = 8 * spring_count(*model);
         EXPECT_EQ(context().bytes_held() - held >= words, makes_words) << path.name;
         EXPECT_EQ(draw(*model, *state, options, width, height).rgb, own) << path.name;
         if (model == &listed) {
           EXPECT_EQ(own, seen[n++]) << path.name;
-        } else {
+        } else if (model == &cube) {
           for (const auto& other : seen) EXPECT_NE(own, other);
           seen.push_back(own);
         }

@@ -1,6 +1,8 @@
 #pragma once
 // A scene of actuated bodies for tests of equal bits.
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "model/integrator.h"
 #include "model/model.h"
@@ -74,6 +76,26 @@ inline ModelSettings actuated(Integrator integrator, ContactModel contact) {
   cells.phase.cells = "3 3 3:";
   for (int n = 0; n < 27; ++n) cells.phase.cells += n % 4 == 0 ? " 0.5" : n % 4 == 1 ? " 0.125" : " -0.3";
   settings.actuators = {wave, steps, hand, cells};
+  return settings;
+}
+
+/// A body of cells along which a wave has so many phases that its springs are of more than 255 classes.
+inline ModelSettings cells_of_many_classes(Integrator integrator) {
+  ModelSettings settings;
+  settings.simulation.integrator = integrator;
+  settings.terrain.emplace_back();
+  settings.materials = {{16.0, 33000.0, 0.4, "jelly"}};
+  VoxelsSettings& voxels = settings.voxels.emplace_back();
+  voxels.size = 0.5;
+  voxels.position = {0.0, 1.02, 0.0};
+  voxels.velocity = {1.0, -2.0, 0.5};
+  voxels.layers.assign(4, std::vector<std::string>(4, std::string(64, '1')));
+  voxels.layers[3][1].replace(5, 3, "...");
+  voxels.palette = {{"1", "jelly"}};
+  ActuatorSettings& wave = settings.actuators.emplace_back();
+  wave.amplitude = 0.2;
+  wave.frequency = 3.0;
+  wave.phase = {0.1, BodyAxis::x, 20.0, {}};
   return settings;
 }
 

@@ -61,6 +61,22 @@ ModelSettings with_net(ModelSettings settings) {
   return settings;
 }
 
+/// A body of two materials with a hole and a notch, where the cube would be: blocks of one material, of both,
+/// and some that have empty places.
+ModelSettings with_cells(ModelSettings settings) {
+  settings.materials = {{16.0, 33000.0, 0.4, "jelly"}, {30.0, 9000.0, 0.7, "fat"}};
+  VoxelsSettings& voxels = settings.voxels.emplace_back();
+  voxels.size = 0.9;
+  voxels.position = settings.cubes[0].position;
+  voxels.rotation = {{1.0, 0.3, 0.7}, 25.0};
+  voxels.velocity = settings.cubes[0].velocity;
+  voxels.palette = {{"1", "jelly"}, {"2", "fat"}};
+  voxels.layers.assign(4, {"111222", "111222", "11.222", "112222", "112222", "1122.."});
+  settings.cubes.clear();
+  set_down(settings, 0.005);
+  return settings;
+}
+
 /// Another cube strikes the first from above, so far away that at first nothing is near.
 ModelSettings struck(ModelSettings settings) {
   settings.contact.bodies = true;
@@ -129,17 +145,23 @@ const std::vector<KernelVariant>& kernel_variants() {
       corrected.arithmetic->defines.push_back({"ASPIC_FUSED_FMA", "1"});
       variants.add("plane, with balls", with_balls(cube_on(method, plane)), corrected);
     }
-    // Both forms of the lattice kernel, and fast arithmetic on each path.
+    // Both forms of the kernels of lattices, and fast arithmetic on each path.
     for (const Integrator method : {Integrator::explicit_euler, Integrator::midpoint}) {
       GpuOptions form = exact;
       for (const std::uint32_t run : {1u, 4u}) {
         form.lattice_run = run;
         form.spring_arithmetic = Arithmetic::exact;
         variants.add("plane, with a net", with_net(cube_on(method, plane)), form);
+        variants.add("plane, cells", with_cells(cube_on(method, plane)), form);
+        variants.add("plane, cells of many classes", cells_of_many_classes(method), form);
         form.spring_arithmetic = Arithmetic::fast;
         variants.add("plane", cube_on(method, plane), form);
+        variants.add("plane, cells", with_cells(cube_on(method, plane)), form);
       }
       variants.add_paths("plane, with a net", with_net(cube_on(method, plane)), form);
+      GpuOptions split = exact;
+      split.split_stages = true;
+      variants.add("plane, cells", with_cells(cube_on(method, plane)), split);
     }
     // Few balls, on terrain of every kind; and more bodies than a block of partners, which want a kernel of
     // their own.

@@ -18,10 +18,10 @@ struct KernelVariant {
 };
 
 /// Methods of one stage, of several and the solved one on every terrain, on several and on one that moves; on
-/// all paths, alone, with a body of listed springs and with actuators; stages in one pass and in two; both
-/// forms of the lattice kernel; few balls, and many by either search; group sizes; exact, fast and corrected
-/// arithmetic. What a scene has otherwise, such as its contact model or table of stages, kernels read at run
-/// time.
+/// all paths, alone, with a body of listed springs and with actuators; stages in one pass and in two; bodies
+/// of cells; both forms of the kernels of lattices; few balls, and many by either search; group sizes; exact,
+/// fast and corrected arithmetic. What a scene has otherwise, such as its contact model or table of stages,
+/// kernels read at run time.
 const std::vector<KernelVariant>& kernel_variants();
 
 }  // namespace aspic::test
