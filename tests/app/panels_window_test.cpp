@@ -444,14 +444,19 @@ TEST_F(Panels, EveryKindOfBodyIsAddedAndRemoved) {
     const std::string key(row.list.key);
     const std::uint32_t particles = simulation().model().particle_count(),
                         balls = simulation().model().ball_count();
+    const auto frames_until_there_are = [&](std::uint64_t of_particles, std::uint64_t of_balls) {
+      frames_until([&] {
+        const Model& model = simulation().model();
+        return model.particle_count() == of_particles && model.ball_count() == of_balls;
+      });
+    };
     click(key + "/add");
     ASSERT_EQ(row.list.size(settings()), 1u) << key;
     const ModelCounts more = row.counts(settings(), 0);
-    EXPECT_EQ(simulation().model().particle_count(), particles + more.particles) << key;
-    EXPECT_EQ(simulation().model().ball_count(), balls + more.balls) << key;
+    frames_until_there_are(particles + more.particles, balls + more.balls);
     click(key + "/0/remove");
     ASSERT_EQ(row.list.size(settings()), 0u) << key;
-    EXPECT_EQ(simulation().model().particle_count(), particles) << key;
+    frames_until_there_are(particles, balls);
   }
 }
 
