@@ -33,8 +33,8 @@ full      core, and by label:
                and by Blender's library (1 GB)
   attack       damaged files and bytes, limits, faults and kills (scripts/attack.sh)
           and without a label:
-  sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers, but for minutes of bodies at
-               rest on the reference, whose code other tests run
+  sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers, without the three longest runs
+               of bodies on the reference, whose code other tests run as well
   fuzzers      ten seconds each (scripts/fuzz.sh)
 
 Left to scripts/check.sh: most of the full tier under sanitizers, the thread sanitizer, clang-tidy, types of all translation units.
