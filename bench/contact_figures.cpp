@@ -89,7 +89,7 @@ class Start {
 };
 
 /// So many steps from the state at this time on.
-void add(const std::string& name, const ModelSettings& settings, double from, std::uint64_t steps = 200) {
+void add(const std::string& name, const ModelSettings& settings, double from, std::uint64_t steps = 1000) {
   const auto start = std::make_shared<Start>(settings, from);
   for (const unsigned threads : {1u, 2u}) {
     for (const bool touching : {true, false}) {

@@ -192,9 +192,8 @@ std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state) {
       if (!skin)
         skin = std::make_unique<Skin>(
             std::span(surfaces.triangles).subspan(faces.first_triangle, faces.triangle_count), state);
-      const Vector P = touch.carriers == 1 ? at.position(touch.particle[0])
-                                           : Vector(touch.weight[0] * at.position(touch.particle[0]) +
-                                                    touch.weight[1] * at.position(touch.particle[1]));
+      const Vector P = reference::over_carriers<double>(
+          touch, [&](std::uint32_t place) { return Vector(at.position(contact.particles()[place])); });
       overlap.deepest = std::max(overlap.deepest, skin->distance(P, -touch.d));
     }
     const double near = std::max(pair.reach - touch.d, 0.0);

@@ -86,7 +86,7 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
 void ExplicitSteps::constants_changed() {
   known_ = false;
   bodies_ = bodies_touch(*model_) ? std::make_unique<reference::BodyContact<float>>(*model_) : nullptr;
-  if (bodies_) bodies_->set_look(look_side_by_side);
+  if (bodies_) bodies_->set_side_by_side(look_side_by_side, touch_in_lanes);
 }
 
 std::uint64_t ExplicitSteps::bytes() const {

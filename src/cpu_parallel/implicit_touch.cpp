@@ -31,7 +31,7 @@ ImplicitTouch::ImplicitTouch(const Model& model, const FloatArray& inverse_mass,
       product_(vector_array(count_, slice)),
       end_(vector_array(count_, slice)) {
   for (FloatArray& each : blocks_) each = FloatArray(count_, slice);
-  contact_.set_look(look_side_by_side);
+  contact_.set_side_by_side(look_side_by_side, touch_in_lanes);
 }
 
 /// Nothing that the last contacts added is left.

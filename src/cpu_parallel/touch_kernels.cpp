@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "cpu_parallel/targets.h"
 #undef HWY_TARGET_INCLUDE
@@ -13,6 +14,7 @@ namespace aspic::parallel::HWY_NAMESPACE {
 namespace {
 
 const hn::RebindToSigned<Tag> index_tag;
+using Index = hn::Vec<hn::RebindToSigned<Tag>>;
 
 HWY_INLINE Vector cross3(const Vector& a, const Vector& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
@@ -53,41 +55,312 @@ HWY_INLINE Nearest nearest_place(const Vector& P, const Vector& A, const Vector&
   return at;
 }
 
-void Look(const TouchLanes& batch) {
-  const auto in = [](const float* const(&of)[3], std::size_t n) {
-    return Vector{hn::LoadU(tag, of[0] + n), hn::LoadU(tag, of[1] + n), hn::LoadU(tag, of[2] + n)};
-  };
-  const auto out = [](const Vector& v, float* const(&to)[3], std::size_t n) {
-    hn::StoreU(v.x, tag, to[0] + n);
-    hn::StoreU(v.y, tag, to[1] + n);
-    hn::StoreU(v.z, tag, to[2] + n);
-  };
-  const auto corner = [&](std::size_t c, std::size_t n) {
-    const auto i = hn::LoadU(index_tag, batch.corner[c] + n);
-    return Vector{hn::GatherIndex(tag, batch.x[0], i), hn::GatherIndex(tag, batch.x[1], i),
-                  hn::GatherIndex(tag, batch.x[2], i)};
-  };
-  const Float zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
+/// A triangle as a point sees it: reference::Sight.
+struct Sight {
+  Vector N, e;
+  Nearest at;
+  Float L, z;
+};
+
+/// reference::sight_of(). Returns g, the area normal.
+HWY_INLINE Vector look(const Vector& P, const Vector& A, const Vector& B, const Vector& C, Sight& seen) {
+  const Vector g = cross3(B - A, C - A);
+  seen.N = hn::Div(hn::Set(tag, 1.0f), hn::Sqrt(dot3(g, g))) * g;
+  seen.at = nearest_place(P, A, B, C);
+  seen.e = ((P - A) - seen.at.b * (B - A)) - seen.at.c * (C - A);
+  seen.L = hn::Sqrt(dot3(seen.e, seen.e));
+  seen.z = dot3(seen.e, seen.N);
+  return g;
+}
+/// Whether a triangle has an area.
+HWY_INLINE Mask real(const Vector& g) {
+  return hn::Gt(dot3(g, g), hn::Zero(tag));
+}
+
+HWY_INLINE void store(const Vector& v, float* const* to, std::size_t n) {
+  hn::StoreU(v.x, tag, to[0] + n);
+  hn::StoreU(v.y, tag, to[1] + n);
+  hn::StoreU(v.z, tag, to[2] + n);
+}
+
+using reference::Row;
+using reference::TouchBatch;
+using reference::TouchTables;
+
+/// Rows of so many lanes as vectors: lane n of column c is c of row number index[n].
+struct Columns {
+  Float column[4];
+  HWY_INLINE Vector vector() const { return {column[0], column[1], column[2]}; }
+};
+
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE Columns columns(const float* rows, const std::int32_t* index) {
+  const float* const row = rows + 4 * static_cast<std::ptrdiff_t>(*index);
+  return {{hn::Set(tag, row[0]), hn::Set(tag, row[1]), hn::Set(tag, row[2]), hn::Set(tag, row[3])}};
+}
+#else
+/// Rows index[0], index[4], … one after the other.
+template <class D>
+HWY_INLINE hn::Vec<D> every_fourth(D d, const float* rows, const std::int32_t* index) {
+  if constexpr (hn::MaxLanes(D()) == 4) {
+    return hn::LoadU(d, rows + 4 * static_cast<std::ptrdiff_t>(*index));
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(d, every_fourth(half, rows, index + hn::MaxLanes(D()) / 2),
+                       every_fourth(half, rows, index));
+  }
+}
+
+HWY_INLINE Columns columns(const float* rows, const std::int32_t* index) {
+  const hn::Repartition<double, Tag> pairs;
+  const Float row[4] = {every_fourth(tag, rows, index), every_fourth(tag, rows, index + 1),
+                        every_fourth(tag, rows, index + 2), every_fourth(tag, rows, index + 3)};
+  const auto xy_01 = hn::BitCast(pairs, hn::InterleaveLower(tag, row[0], row[1])),
+             xy_23 = hn::BitCast(pairs, hn::InterleaveLower(tag, row[2], row[3])),
+             zw_01 = hn::BitCast(pairs, hn::InterleaveUpper(tag, row[0], row[1])),
+             zw_23 = hn::BitCast(pairs, hn::InterleaveUpper(tag, row[2], row[3]));
+  return {{hn::BitCast(tag, hn::InterleaveLower(pairs, xy_01, xy_23)),
+           hn::BitCast(tag, hn::InterleaveUpper(pairs, xy_01, xy_23)),
+           hn::BitCast(tag, hn::InterleaveLower(pairs, zw_01, zw_23)),
+           hn::BitCast(tag, hn::InterleaveUpper(pairs, zw_01, zw_23))}};
+}
+#endif
+HWY_INLINE Vector vectors(const Row<float>* rows, const std::int32_t* index) {
+  return columns(rows->data(), index).vector();
+}
+
+/// A triangle for each lane.
+struct Faces {
+  alignas(64) std::int32_t corner[3][lanes];
+  Index side;
+};
+HWY_INLINE Faces faces_at(const Row<std::uint32_t>* rows, const std::int32_t* index) {
+  const Columns all = columns(reinterpret_cast<const float*>(rows->data()), index);
+  Faces faces;
+  for (std::size_t c = 0; c < 3; ++c)
+    hn::StoreU(hn::BitCast(index_tag, all.column[c]), index_tag, faces.corner[c]);
+  faces.side = hn::BitCast(index_tag, all.column[3]);
+  return faces;
+}
+
+void Look(const SightLanes& batch) {
+  const Float one = hn::Set(tag, 1.0f);
   const auto flags = [&](Mask mask, std::int32_t* to) {
     hn::StoreU(hn::ConvertTo(index_tag, hn::IfThenElseZero(mask, one)), index_tag, to);
   };
+  const Vector P = {hn::Set(tag, batch.P[0]), hn::Set(tag, batch.P[1]), hn::Set(tag, batch.P[2])};
   for (std::size_t n = 0; n < batch.count; n += lanes) {
-    const Vector A = corner(0, n), B = corner(1, n), C = corner(2, n), P = in(batch.P, n);
-    const Vector g = cross3(B - A, C - A);
-    const Float square = dot3(g, g);
-    const Vector N = hn::Div(one, hn::Sqrt(square)) * g;
-    const Mask turned = hn::Lt(dot3(in(batch.N_P, n), g), zero);
-    const Mask either = hn::Eq(hn::LoadU(tag, batch.opposing + n), zero);
-    const Nearest at = nearest_place(P, A, B, C);
-    const Vector e = ((P - A) - at.b * (B - A)) - at.c * (C - A);
-    flags(hn::And(hn::Gt(square, zero), hn::Or(turned, either)), batch.counts + n);
-    flags(at.face, batch.face + n);
-    hn::StoreU(at.b, tag, batch.b + n);
-    hn::StoreU(at.c, tag, batch.c + n);
-    hn::StoreU(hn::Sqrt(dot3(e, e)), tag, batch.L + n);
-    hn::StoreU(dot3(e, N), tag, batch.z + n);
-    out(e, batch.e, n);
-    out(N, batch.N, n);
+    const Faces faces = faces_at(batch.faces, batch.triangle + n);
+    Sight seen;
+    const Vector g = look(P, vectors(batch.x, faces.corner[0]), vectors(batch.x, faces.corner[1]),
+                          vectors(batch.x, faces.corner[2]), seen);
+    flags(real(g), batch.real + n);
+    flags(seen.at.face, batch.face + n);
+    hn::StoreU(seen.at.b, tag, batch.b + n);
+    hn::StoreU(seen.at.c, tag, batch.c + n);
+    hn::StoreU(seen.L, tag, batch.L + n);
+    hn::StoreU(seen.z, tag, batch.z + n);
+    store(seen.e, batch.e, n);
+    store(seen.N, batch.N, n);
+  }
+}
+
+HWY_INLINE Mask both(Mask a, Mask b) {
+  return hn::And(a, b);
+}
+
+/// The same constant of each lane's pair.
+struct Pairs {
+  const reference::TouchConstants<float>* all;
+  const std::int32_t* index;
+  bool same;
+
+  template <class Value>
+  HWY_INLINE Float of(Value reference::TouchConstants<float>::*which) const {
+    if (same) return hn::Set(tag, static_cast<float>(all[*index].*which));
+    alignas(64) float values[lanes];
+    for (std::size_t n = 0; n < lanes; ++n) values[n] = static_cast<float>(all[index[n]].*which);
+    return hn::Load(tag, values);
+  }
+};
+
+/// Points that carry points, and their weights.
+struct Carried {
+  const std::int32_t *first, *second;
+  Float weight_first, weight_second;
+  Mask single;
+  bool all_single;
+
+  HWY_INLINE Vector of(const Row<float>* rows) const {
+    const Vector a = vectors(rows, first);
+    if (all_single) return a;
+    return chosen(single, a, weight_first * a + weight_second * vectors(rows, second));
+  }
+};
+
+/// What a point sees of the triangles of its short list, one of each.
+struct Listed {
+  Sight seen[reference::most_listed];
+  Index triangle[reference::most_listed], side[reference::most_listed];
+  Mask matters[reference::most_listed];
+};
+
+/// That which counts as the nearest: reference::nearest_of().
+struct Best {
+  Sight seen;
+  Index triangle, side;
+  Mask any;
+};
+
+HWY_INLINE Best nearest_of(const Listed& all, std::size_t count, Float far) {
+  const Float zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
+  Best best;
+  best.seen.N = all.seen[0].N;
+  best.seen.e = all.seen[0].e;
+  best.seen.at = all.seen[0].at;
+  best.seen.L = all.seen[0].L;
+  best.seen.z = all.seen[0].z;
+  best.triangle = all.triangle[0];
+  best.side = all.side[0];
+  best.any = hn::Lt(zero, zero);
+  Float straight = hn::Set(tag, -1.0f);
+  for (std::size_t j = 0; j < count; ++j) {
+    const Sight& seen = all.seen[j];
+    const Float slant = hn::IfThenElseZero(hn::Gt(seen.L, zero), hn::Div(hn::Abs(seen.z), seen.L));
+    const Float here = hn::IfThenElse(seen.at.face, one, slant);
+    const Mask straighter =
+        hn::Or(hn::Gt(here, straight), both(hn::Eq(here, straight), hn::Lt(seen.L, best.seen.L)));
+    const Mask better = both(both(all.matters[j], hn::Le(seen.L, far)), straighter);
+    straight = hn::IfThenElse(better, here, straight);
+    best.seen.N = chosen(better, seen.N, best.seen.N);
+    best.seen.e = chosen(better, seen.e, best.seen.e);
+    best.seen.L = hn::IfThenElse(better, seen.L, best.seen.L);
+    best.seen.z = hn::IfThenElse(better, seen.z, best.seen.z);
+    best.seen.at.b = hn::IfThenElse(better, seen.at.b, best.seen.at.b);
+    best.seen.at.c = hn::IfThenElse(better, seen.at.c, best.seen.at.c);
+    best.seen.at.face = hn::Or(both(better, seen.at.face), hn::AndNot(better, best.seen.at.face));
+    const auto turn = hn::RebindMask(index_tag, better);
+    best.triangle = hn::IfThenElse(turn, all.triangle[j], best.triangle);
+    best.side = hn::IfThenElse(turn, all.side[j], best.side);
+    best.any = hn::Or(best.any, better);
+  }
+  return best;
+}
+
+struct Gap {
+  Float d;
+  Vector n;
+  Mask touches;
+};
+
+/// reference::closed_gap() and open_gap()
+HWY_INLINE Gap gap_of(const Sight& seen, Mask closed, Float sight, Float depth) {
+  const Float zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
+  const Mask behind = hn::Lt(seen.z, zero), inside = both(closed, behind), outside = hn::Lt(seen.L, sight);
+  const Mask deep = both(hn::Le(seen.L, depth), hn::Ge(hn::Neg(seen.z), hn::Mul(hn::Set(tag, 0.7f), seen.L)));
+  const Vector back = {hn::Neg(seen.N.x), hn::Neg(seen.N.y), hn::Neg(seen.N.z)};
+  const Mask turned = hn::AndNot(closed, behind);
+  const Float d = hn::IfThenElse(inside, hn::Neg(seen.L), seen.L);
+  const Vector beside = chosen(hn::Gt(seen.L, zero), hn::Div(one, d) * seen.e, seen.N);
+  return {hn::IfThenElse(seen.at.face, hn::IfThenElse(turned, hn::Neg(seen.z), seen.z), d),
+          chosen(seen.at.face, chosen(turned, back, seen.N), beside),
+          hn::Or(both(inside, deep), hn::AndNot(inside, outside))};
+}
+
+/// Whether a triangle of another side than the first contact's may be touched, too.
+HWY_INLINE Mask second_side(const Listed& all, std::size_t count, const Best& first, Float sight) {
+  Mask any = hn::Lt(sight, sight);
+  for (std::size_t j = 0; j < count; ++j) {
+    const Sight& seen = all.seen[j];
+    const Mask other = hn::RebindMask(tag, hn::Ne(all.side[j], first.side));
+    const Mask straight =
+        both(hn::Ge(seen.z, hn::Zero(tag)), hn::Ge(seen.z, hn::Mul(hn::Set(tag, 0.9f), seen.L)));
+    any = hn::Or(any, both(both(all.matters[j], other), both(straight, hn::Lt(seen.L, sight))));
+  }
+  return any;
+}
+
+void Touch(const TouchTables<float>& from, TouchBatch<float>& batch) {
+  using Constants = reference::TouchConstants<float>;
+  const Float zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
+  for (std::size_t n = 0; n < batch.count; n += lanes) {
+    const auto numbers = [n](const auto& lane) { return hn::LoadU(index_tag, lane.data() + n); };
+    const auto values = [n](const auto& lane) { return hn::LoadU(tag, lane.data() + n); };
+    const Mask single = hn::RebindMask(tag, hn::Eq(numbers(batch.own[0]), numbers(batch.own[1])));
+    const Carried carried = {batch.own[0].data() + n,
+                             batch.own[1].data() + n,
+                             values(batch.weight[0]),
+                             values(batch.weight[1]),
+                             single,
+                             hn::AllTrue(tag, single)};
+    const auto same = hn::Eq(numbers(batch.pair), hn::Set(index_tag, batch.pair[n]));
+    const Pairs pairs = {from.pairs, batch.pair.data() + n, hn::AllTrue(index_tag, same)};
+    const Vector P = carried.of(from.x), N_P = carried.of(from.normal);
+    const Mask closed = hn::Ne(pairs.of(&Constants::closed), zero),
+               either = hn::Eq(pairs.of(&Constants::opposing), zero);
+    const Float sight = pairs.of(&Constants::sight), depth = pairs.of(&Constants::depth),
+                tie = pairs.of(&Constants::tie);
+
+    const Index listed = numbers(batch.listed);
+    const auto count = static_cast<std::size_t>(hn::GetLane(hn::MaxOfLanes(index_tag, listed)));
+    const std::uint32_t* lists[lanes];
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      lists[lane] = from.list + static_cast<std::size_t>(batch.encounter[n + lane]) * from.list_size;
+    Listed all;
+    Float least = hn::Set(tag, std::numeric_limits<float>::infinity());
+    for (std::size_t j = 0; j < count; ++j) {
+      alignas(64) std::int32_t t[lanes];
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        t[lane] = static_cast<std::int32_t>(
+            lists[lane][j < static_cast<std::size_t>(batch.listed[n + lane]) ? j : 0]);
+      const Faces faces = faces_at(from.faces, t);
+      Sight& seen = all.seen[j];
+      const Vector g = look(P, vectors(from.x, faces.corner[0]), vectors(from.x, faces.corner[1]),
+                            vectors(from.x, faces.corner[2]), seen);
+      const Mask there =
+          hn::RebindMask(tag, hn::Gt(listed, hn::Set(index_tag, static_cast<std::int32_t>(j))));
+      const Mask counts = both(both(there, real(g)), hn::Or(either, hn::Lt(dot3(N_P, g), zero)));
+      all.triangle[j] = hn::Load(index_tag, t);
+      all.side[j] = faces.side;
+      all.matters[j] = counts;
+      least = hn::IfThenElse(both(counts, hn::Lt(seen.L, least)), seen.L, least);
+    }
+    // As far as BodyContact::enough().
+    const Float touching = hn::Add(hn::Max(sight, depth), tie);
+    const Float nearest = hn::Add(hn::Max(least, sight), tie);
+    const Float pad = hn::Add(hn::Mul(hn::Set(tag, 0.002f), pairs.of(&Constants::s)), hn::Set(tag, from.pad));
+    const Float enough = hn::Add(hn::IfThenElse(hn::Le(least, touching), nearest, touching), pad);
+    for (std::size_t j = 0; j < count; ++j)
+      all.matters[j] = both(all.matters[j], hn::Le(all.seen[j].L, enough));
+
+    const Best first = nearest_of(all, count, hn::Add(least, tie));
+    const Gap gap = gap_of(first.seen, closed, sight, depth);
+    const Mask touches = both(first.any, gap.touches);
+    const Mask unsure = hn::Or(hn::Not(hn::Gt(hn::LoadU(tag, batch.limit.data() + n), enough)),
+                               both(both(first.any, closed), second_side(all, count, first, sight)));
+
+    const Float b0 = hn::Sub(hn::Sub(one, first.seen.at.b), first.seen.at.c);
+    hn::StoreU(first.triangle, index_tag, batch.triangle.data() + n);
+    const Faces faces = faces_at(from.faces, batch.triangle.data() + n);
+    const Vector v = carried.of(from.v);
+    const Vector v_face =
+        (b0 * vectors(from.v, faces.corner[0]) + first.seen.at.b * vectors(from.v, faces.corner[1])) +
+        first.seen.at.c * vectors(from.v, faces.corner[2]);
+    const Float c_u = hn::Mul(pairs.of(&Constants::c), dot3(gap.n, v - v_face));
+    Float rest = hn::Mul(pairs.of(&Constants::k), hn::Sub(pairs.of(&Constants::reach), gap.d));
+    if (from.at_end) rest = hn::Add(rest, c_u);
+    const Float push = hn::Sub(rest, c_u);
+
+    const Float answer = hn::IfThenElse(unsure, hn::Set(tag, static_cast<float>(TouchBatch<float>::unsure)),
+                                        hn::IfThenElseZero(touches, one));
+    hn::StoreU(hn::ConvertTo(index_tag, answer), index_tag, batch.answer.data() + n);
+    float* const to[3] = {batch.n[0].data(), batch.n[1].data(), batch.n[2].data()};
+    store(gap.n, to, n);
+    hn::StoreU(first.seen.at.b, tag, batch.b.data() + n);
+    hn::StoreU(first.seen.at.c, tag, batch.c.data() + n);
+    hn::StoreU(gap.d, tag, batch.d.data() + n);
+    hn::StoreU(rest, tag, batch.rest.data() + n);
+    hn::StoreU(hn::IfThenElseZero(hn::Gt(push, zero), push), tag, batch.push.data() + n);
   }
 }
 
@@ -99,9 +372,14 @@ HWY_AFTER_NAMESPACE();
 namespace aspic::parallel {
 
 HWY_EXPORT(Look);
+HWY_EXPORT(Touch);
 
-void look_in_lanes(const TouchLanes& batch) {
+void look_in_lanes(const SightLanes& batch) {
   HWY_DYNAMIC_DISPATCH(Look)(batch);
+}
+
+void touch_in_lanes(const reference::TouchTables<float>& from, reference::TouchBatch<float>& batch) {
+  HWY_DYNAMIC_DISPATCH(Touch)(from, batch);
 }
 
 }  // namespace aspic::parallel

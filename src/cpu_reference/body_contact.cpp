@@ -1,6 +1,7 @@
 #include "cpu_reference/body_contact.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <tuple>
 #include <type_traits>
@@ -15,13 +16,27 @@ constexpr std::uint32_t nowhere = 0xffffffffu;
 
 /// Of lists of what is near, in spacings: larger ones take longer to make, and live longer.
 constexpr double near_slack = 0.5;
+/// For which short lists are made, in spacings: what is in no list of what is near stays out of their reach.
+constexpr float longest_way = 0.3f;
+/// A point that touches nothing until it has gone by so many spacings is not looked at until then.
+constexpr float least_idle = 0.04f;
 
 template <class T>
-TouchConstants<T> rounded_pair(const TouchPair& exact, double ahead_step) {
+TouchConstants<T> rounded_pair(const ContactSettings& contact, const TouchBody& a, const TouchBody& b,
+                               bool same, double ahead_step) {
+  const TouchPair exact = touch_pair(contact, a, b, same);
   const TouchPair pair = ahead_step > 0.0 ? seen_ahead(exact, ahead_step) : exact;
-  return {static_cast<T>(pair.stiffness), static_cast<T>(pair.damping), static_cast<T>(pair.friction),
-          static_cast<T>(pair.spacing),   static_cast<T>(pair.reach),   static_cast<T>(pair.sight),
-          static_cast<T>(pair.depth),     static_cast<T>(pair.margin),  static_cast<T>(2e-6 * pair.spacing)};
+  return {static_cast<T>(pair.stiffness),
+          static_cast<T>(pair.damping),
+          static_cast<T>(pair.friction),
+          static_cast<T>(pair.spacing),
+          static_cast<T>(pair.reach),
+          static_cast<T>(pair.sight),
+          static_cast<T>(pair.depth),
+          static_cast<T>(pair.margin),
+          static_cast<T>(2e-6 * pair.spacing),
+          b.closed,
+          a.closed && b.closed};
 }
 
 /// P, or V: of the carriers' places or velocities.
@@ -43,9 +58,9 @@ Vector<T> over_own(const TouchPoint& point, const Value& value) {
 /// How far, up to `most` [m], a point may go against each corner of a triangle before it touches it, from
 /// either side and whatever else is near; 0 or less if not far.
 template <class T>
-T free_way(const Sight<T>& seen, const Face<T>& face, bool closed, const TouchConstants<T>& pair, T most) {
+T free_way(const Sight<T>& seen, const Face<T>& face, const TouchConstants<T>& pair, T most) {
   const T first = std::min(most, seen.L - pair.sight), off = seen.L - pair.depth;
-  if (!closed || first <= off) return first;
+  if (!pair.closed || first <= off) return first;
   // Left is a touch from inside, for which −z has to become 0.7 L. With the corners its plane moves at the
   // point's foot by κ·way, κ the sum of the foot's absolute barycentric coordinates, and N turns.
   const T ab = norm3<T>(face.B - face.A), ac = norm3<T>(face.C - face.A), bc = norm3<T>(face.C - face.B);
@@ -59,6 +74,12 @@ T free_way(const Sight<T>& seen, const Face<T>& face, bool closed, const TouchCo
       return std::max(way, off);
   }
   return off;
+}
+
+/// Whether a triangle counts for a point with the normal N: between closed surfaces, if it turns to it.
+template <class T>
+bool counts(const Face<T>& face, const TouchConstants<T>& pair, const Vector<T>& N) {
+  return face.real && (!pair.opposing || dot3<T>(N, face.g) < T(0));
 }
 
 template <class T>
@@ -77,11 +98,10 @@ TouchTable<T>::TouchTable(const ContactSettings& contact, const std::vector<Touc
     kind_.push_back(static_cast<std::uint32_t>(found - kinds.begin()));
     if (found == kinds.end()) kinds.push_back(&body);
   }
-  for (const TouchBody* a : kinds) {
-    self_.push_back(rounded_pair<T>(touch_pair(contact, *a, *a, true), ahead_step));
-    for (const TouchBody* b : kinds)
-      pairs_.push_back(rounded_pair<T>(touch_pair(contact, *a, *b, false), ahead_step));
-  }
+  kinds_ = static_cast<std::uint32_t>(kinds.size());
+  for (const TouchBody* a : kinds) pairs_.push_back(rounded_pair<T>(contact, *a, *a, true, ahead_step));
+  for (const TouchBody* a : kinds)
+    for (const TouchBody* b : kinds) pairs_.push_back(rounded_pair<T>(contact, *a, *b, false, ahead_step));
 }
 
 template <class T>
@@ -92,12 +112,19 @@ BodyContact<T>::BodyContact(const Model& model, double ahead_step)
       h_(static_cast<T>(model.simulation.timestep)),
       rubs_(table_.rubs()),
       timestep_(model.simulation.timestep),
+      ways_(surfaces_),
       normals_(surfaces_),
       short_(surfaces_),
+      x_(surfaces_.points.size()),
+      v_(surfaces_.points.size()),
       places_(surfaces_.points.size()),
-      place_of_(model.particle_count(), nowhere) {
-  for (std::uint32_t p = 0; p < surfaces_.points.size(); ++p)
-    if (surfaces_.points[p].single()) surface_.push_back({surfaces_.points[p].carrier[0], p});
+      named_((surfaces_.points.size() + 63) / 64),
+      place_of_(surfaces_.points.size(), nowhere) {
+  for (std::uint32_t p = 0; p < surfaces_.points.size(); ++p) {
+    const TouchPoint& point = surfaces_.points[p];
+    for (std::size_t n = 0; n < 2; ++n) weight_[n].push_back(static_cast<T>(point.weight[n]));
+    if (point.single()) surface_.push_back({point.carrier[0], p});
+  }
   ease_apart(model, ahead_step > 0.0);
 }
 
@@ -126,70 +153,48 @@ void BodyContact<T>::ease_apart(const Model& model, bool ahead) {
 template <class T>
 bool BodyContact<T>::begin_step(std::uint64_t step, const Particles& start) {
   time_ = static_cast<T>(static_cast<double>(step) * timestep_);
-  const auto slack = static_cast<T>(near_.slack()), leeway = static_cast<T>(near_.leeway());
-  const Gone gone = this->gone(start);
-  if (!(gone.far <= leeway && gone.apart <= slack)) {
-    // Of what was not near, nothing has come as near as short lists reach if nothing has gone much further
-    // than the lists of what is near allow.
-    if (!(gone.far <= leeway + T(0.2) * slack && gone.apart <= T(1.4) * slack))
+  lay_out(start);
+  ways_.measure(near_, start, x_);
+  if (!ways_.hold(near_)) {
+    // Of what was not near, nothing has come as near as short lists reach if it has come little nearer than
+    // the lists of what is near allow.
+    if (!ways_.hold(near_, 0.2 * near_.slack()))
       for (std::size_t n = 0; n < own_.size(); ++n) short_.begin(n, -1.0);
-    known_places_.resize(surface_.size());
-    for (std::size_t n = 0; n < surface_.size(); ++n) {
-      const Vector<T> x = start.position(surface_[n].particle);
-      known_places_[n] = x;
-      places_[surface_[n].point] = {x.x(), x.y(), x.z()};
+    for (const auto& [particle, point] : surface_) {
+      const Vector<T> x = start.position(particle);
+      places_[point] = {x.x(), x.y(), x.z()};
     }
     near_.make(places_);
+    ways_.begin(start);
     list_used(start);
   }
+  laid_out_ = true;
   start_ = start;
+  easing_ = std::ranges::any_of(eased_, [&](const Eased& eased) {
+    const TouchConstants<T>& pair = table_.at(body_of(eased.point), eased.body);
+    return back(eased, pair) < pair.reach;
+  });
   return !near_.encounters().empty();
-}
-
-template <class T>
-typename BodyContact<T>::Gone BodyContact<T>::gone(const Particles& at) const {
-  constexpr T far = std::numeric_limits<T>::infinity();
-  if (known_places_.size() != surface_.size()) return {far, far};
-  T most = T(0);
-  bool sound = true;
-  for (std::size_t n = 0; n < surface_.size(); ++n) {
-    const Vector<T> way = at.position(surface_[n].particle) - known_places_[n];
-    const T square = dot3<T>(way, way);
-    sound = sound && square < far;  // what is no number has gone anywhere
-    most = square > most ? square : most;
-  }
-  if (!sound) return {far, far};
-  using Array = Eigen::Array<T, 3, 1>;
-  const auto around = [&](std::uint32_t from, std::uint32_t end) {
-    std::pair<Array, Array> box = {Array::Constant(far), Array::Constant(-far)};
-    for (std::uint32_t n = from; n < end; ++n) {
-      const Array way = (at.position(met_[n]) - met_from_[n]).array();
-      box.first = box.first.min(way);
-      box.second = box.second.max(way);
-    }
-    return box;
-  };
-  T apart = T(0);
-  for (const Meeting& meeting : near_.meetings()) {
-    const auto a = around(meeting.first, meeting.second == meeting.first ? meeting.end : meeting.second);
-    const auto b = around(meeting.second, meeting.end);
-    apart = std::max({apart, (a.second - b.first).maxCoeff(), (b.second - a.first).maxCoeff()});
-  }
-  return {std::sqrt(most), apart};
 }
 
 /// Other encounters are near.
 template <class T>
 void BodyContact<T>::list_used(const Particles& at) {
   met_.clear();
-  met_from_.clear();
-  for (const std::uint32_t point : near_.met()) {
-    met_.push_back(surfaces_.points[point].carrier[0]);
-    met_from_.push_back(at.position(met_.back()));
-  }
+  for (const std::uint32_t p : near_.met()) met_.push_back({surfaces_.points[p].carrier[0], p});
+  std::ranges::sort(met_, {}, &SurfaceParticle::point);
+  const auto same = [](const SurfaceParticle& a, const SurfaceParticle& b) { return a.point == b.point; };
+  met_.erase(std::unique(met_.begin(), met_.end(), same), met_.end());
+  lay_out(at);
   own_.clear();
-  for (const Encounter& near : near_.encounters()) own_.push_back(body_of(near.point));
-  short_.reset(near_, own_, at);
+  asked_.clear();
+  for (const Encounter& near : near_.encounters()) {
+    const TouchPoint& point = surfaces_.points[near.point];
+    own_.push_back(body_of(near.point));
+    asked_.push_back(
+        {point.own, {weight_[0][near.point], weight_[1][near.point]}, table_.of(own_.back(), near.body)});
+  }
+  short_.reset(near_, own_, x_);
   normals_.clear();
   for (std::size_t n = 0; n < own_.size(); ++n) want(n);
   normals_.sort();
@@ -198,85 +203,127 @@ void BodyContact<T>::list_used(const Particles& at) {
 /// What is made ahead for the short list of an encounter.
 template <class T>
 void BodyContact<T>::want(std::size_t encounter) {
-  if (short_[encounter].count > 0) normals_.want(surfaces_.points[near_.encounters()[encounter].point]);
+  if (short_[encounter].count > 0 && !short_[encounter].idle)
+    normals_.want(surfaces_.points[near_.encounters()[encounter].point]);
 }
 
-/// Whether the box of a triangle near a point holds it at the start of the step.
+/// Whether the box of a triangle holds a point near it at the start of the step.
 template <class T>
-bool BodyContact<T>::is_candidate(const Encounter& near, std::uint32_t triangle) const {
+bool BodyContact<T>::is_candidate(const Encounter& near, const TouchConstants<T>& pair,
+                                  std::uint32_t triangle) const {
   const auto& corner = surfaces_.triangles[triangle].corner;
   const Vector<T> A = start_->position(corner[0]), B = start_->position(corner[1]),
                   C = start_->position(corner[2]);
-  const T margin = table_.at(body_of(near.point), near.body).margin;
-  return box_holds<T>(Vector<T>(A.cwiseMin(B).cwiseMin(C)), Vector<T>(A.cwiseMax(B).cwiseMax(C)), margin,
+  return box_holds<T>(Vector<T>(A.cwiseMin(B).cwiseMin(C)), Vector<T>(A.cwiseMax(B).cwiseMax(C)), pair.margin,
                       place<T>(surfaces_.points[near.point], *start_));
 }
 
 template <class T>
-void BodyContact<T>::find_in(std::size_t piece, const Particles& at) {
-  pieces_[piece].touches.clear();
-  pieces_[piece].listed.clear();
-  const std::size_t end = std::min(near_.encounters().size(), (piece + 1) * piece_size);
-  SightBatch<T> batch;
-  for (std::size_t n = piece * piece_size; n < end; ++n) {
-    const auto& list = short_[n];
-    if (list.count == 0 && short_.holds(n)) continue;
-    if (batch.count + list.count > SightBatch<T>::room) look(batch, pieces_[piece]);
-    pieces_[piece].queue.push_back(looker(n, at));
-    put(pieces_[piece].queue.back(), batch);
-    pieces_[piece].ends.push_back(batch.count);
+void BodyContact<T>::find_in(std::size_t number) {
+  Piece& piece = pieces_[number];
+  const bool in_turn = in_turn_.load(std::memory_order_acquire) == number;
+  piece.out = in_turn ? &touches_ : &piece.touches;
+  piece.touches.clear();
+  piece.listed.clear();
+  const std::size_t first = number * piece_size,
+                    end = std::min(near_.encounters().size(), first + piece_size);
+  TouchBatch<T> batch;
+  if (side_by_side_ != nullptr && !easing_) {
+    ask(first, end, batch);
+    if (batch.count > 0) side_by_side_(tables(), batch);
   }
-  look(batch, pieces_[piece]);
+  std::size_t asked = 0;
+  for (std::size_t n = first; n < end; ++n) {
+    const bool side_by_side = asked < batch.count && static_cast<std::size_t>(batch.encounter[asked]) == n;
+    const std::size_t place = side_by_side ? asked++ : 0;
+    if (side_by_side && batch.answer[place] != batch.unsure) {
+      if (batch.answer[place] == batch.touches) add(n, batch, place, piece);
+    } else if (short_.may_touch(n)) {
+      const Looker p = looker(n);
+      if (stays_apart(p)) continue;
+      if (!look_at_few(p, piece.sights)) look_at_all(p, piece);
+      touch(p, piece);
+    }
+  }
+  if (in_turn) in_turn_.store(number + 1, std::memory_order_release);
+}
+
+/// Places and velocities of all that may touch, one after the other.
+template <class T>
+void BodyContact<T>::lay_out(const Particles& at) {
+  for (const auto& [particle, point] : met_) {
+    x_[point] = row_of<T>(at.position(particle));
+    v_[point] = row_of<T>(at.velocity(particle));
+  }
+}
+
+/// The encounters of a range whose short lists hold and name triangles.
+template <class T>
+void BodyContact<T>::ask(std::size_t first, std::size_t end, TouchBatch<T>& batch) const {
+  for (std::size_t n = first; n < end; ++n) {
+    if (!short_.holds(n) || !short_.may_touch(n)) continue;
+    const std::uint32_t listed = short_[n].count;
+    const std::size_t place = batch.count++;
+    batch.encounter[place] = static_cast<std::int32_t>(n);
+    batch.pair[place] = static_cast<std::int32_t>(asked_[n].pair);
+    for (std::size_t each = 0; each < 2; ++each) {
+      batch.own[each][place] = static_cast<std::int32_t>(asked_[n].own[each]);
+      batch.weight[each][place] = asked_[n].weight[each];
+    }
+    batch.listed[place] = static_cast<std::int32_t>(listed);
+    batch.limit[place] = static_cast<T>(short_.limit(n)) - static_cast<T>(near_.pad());
+  }
+  if (batch.count == 0) return;
+  // Lanes behind the last look, too.
+  const auto repeat = [&](auto& lane) {
+    std::fill_n(lane.begin() + static_cast<std::ptrdiff_t>(batch.count), batch_behind, lane[batch.count - 1]);
+  };
+  repeat(batch.encounter);
+  repeat(batch.pair);
+  for (std::size_t each = 0; each < 2; ++each) {
+    repeat(batch.own[each]);
+    repeat(batch.weight[each]);
+  }
+  repeat(batch.listed);
+  repeat(batch.limit);
 }
 
 template <class T>
-typename BodyContact<T>::Looker BodyContact<T>::looker(std::size_t n, const Particles& at) const {
+TouchTables<T> BodyContact<T>::tables() const {
+  const auto& lists = short_.lists();
+  static_assert(sizeof(lists[0]) % sizeof(lists[0].triangle[0]) == 0);
+  return {x_.data(),
+          v_.data(),
+          normals_.rows(),
+          surfaces_.faces.data(),
+          lists[0].triangle.data(),
+          sizeof(lists[0]) / sizeof(lists[0].triangle[0]),
+          table_.pairs().data(),
+          static_cast<T>(near_.pad()),
+          at_end_};
+}
+
+template <class T>
+typename BodyContact<T>::Looker BodyContact<T>::looker(std::size_t n) const {
   const Encounter& near = near_.encounters()[n];
-  const TouchPoint& point = surfaces_.points[near.point];
-  const bool opposing = surfaces_.bodies[near.body].closed && surfaces_.bodies[own_[n]].closed;
-  return {n,
-          near,
-          own_[n],
-          table_.at(own_[n], near.body),
-          opposing,
-          place<T>(point, at),
-          opposing ? over_own<T>(point, [&](std::uint32_t own) { return normals_.at(own, at); })
-                   : Vector<T>(Vector<T>::Zero()),
-          at};
+  const auto place = [&](std::uint32_t own) { return vector_of(x_[own]); };
+  return {n, near, table_[asked_[n].pair], over_own<T>(surfaces_.points[near.point], place)};
 }
 
-/// The triangles of its short list are looked at; of one that does not hold, none.
+/// N_P, where only faces count that turn to the point.
 template <class T>
-void BodyContact<T>::put(const Looker& p, SightBatch<T>& batch) const {
-  const auto& list = short_[p.n];
-  if (!short_.holds(p.n)) return;
-  batch.ask(batch.count, list.count, p.P, p.opposing ? std::optional(p.N) : std::nullopt);
-  for (std::size_t n = 0; n < list.count; ++n, ++batch.count)
-    batch.set_corner(batch.count, surfaces_.triangles[list.triangle[n]].corner);
-}
-
-/// Finds the contacts of those in the queue, and empties it.
-template <class T>
-void BodyContact<T>::look(SightBatch<T>& batch, Piece& piece) {
-  if (piece.queue.empty()) return;
-  if (batch.count > 0) look_(piece.queue.front().at, batch);
-  for (std::size_t n = 0; n < piece.queue.size(); ++n) {
-    const Looker& p = piece.queue[n];
-    if (!look_at_few(p, batch, n > 0 ? piece.ends[n - 1] : 0, piece.sights)) look_at_all(p, piece);
-    touch(p, piece);
-  }
-  piece.queue.clear();
-  piece.ends.clear();
-  batch.count = 0;
+Vector<T> BodyContact<T>::normal_of(const Looker& p) const {
+  if (!p.pair.opposing) return Vector<T>::Zero();
+  return over_own<T>(surfaces_.points[p.near.point], [&](std::uint32_t own) { return normals_.at(own, x_); });
 }
 
 template <class T>
 bool BodyContact<T>::gather() {
-  touches_.clear();
-  for (std::size_t n = 0; n < pieces_of(near_.encounters().size()); ++n) {
+  const std::size_t pieces = pieces_of(near_.encounters().size());
+  for (std::size_t n = in_turn_; n < pieces; ++n)
     touches_.insert(touches_.end(), pieces_[n].touches.begin(), pieces_[n].touches.end());
+  for (std::size_t n = 0; n < pieces; ++n)
     for (const std::size_t listed : pieces_[n].listed) want(listed);
-  }
   name_particles();
   return !touches_.empty();
 }
@@ -288,22 +335,9 @@ std::uint32_t BodyContact<T>::body_of(std::uint32_t point) const {
 }
 
 template <class T>
-std::uint32_t BodyContact<T>::body_of_particle(std::uint32_t particle) const {
-  const auto first = [&](const TouchBody& body) { return surfaces_.points[body.first_point].carrier[0]; };
-  const auto after = std::ranges::upper_bound(surfaces_.bodies, particle, {}, first);
-  return static_cast<std::uint32_t>(after - surfaces_.bodies.begin()) - 1;
-}
-
-template <class T>
 std::uint32_t BodyContact<T>::body_of_triangle(std::uint32_t triangle) const {
   const auto after = std::ranges::upper_bound(surfaces_.bodies, triangle, {}, &TouchBody::first_triangle);
   return static_cast<std::uint32_t>(after - surfaces_.bodies.begin()) - 1;
-}
-
-/// Whether a triangle counts for a point: between closed surfaces, if it turns to it.
-template <class T>
-bool BodyContact<T>::counts(const Face<T>& face, const Looker& p) const {
-  return face.real && (!p.opposing || dot3<T>(p.N, face.g) < T(0));
 }
 
 /// More than distances are wrong by [m].
@@ -319,86 +353,120 @@ T BodyContact<T>::enough(std::optional<T> least, const TouchConstants<T>& pair) 
   return (least && *least <= touching ? std::max(*least, pair.sight) + pair.tie : touching) + pad(pair);
 }
 
-/// Fills in `sights` with what may matter from the short list, which the batch has from here on. Returns
-/// false if it does not hold.
+/// Whether a point that was to touch nothing for a while touches nothing for another, going by the triangles
+/// that it may touch first.
 template <class T>
-bool BodyContact<T>::look_at_few(const Looker& p, const SightBatch<T>& batch, std::size_t from,
-                                 std::vector<Sight<T>>& sights) const {
-  sights.clear();
-  if (!short_.holds(p.n)) return false;
+bool BodyContact<T>::stays_apart(const Looker& p) {
   const auto& list = short_[p.n];
-  std::optional<T> least;
-  for (std::size_t n = 0; n < list.count; ++n)
-    if (batch.counts[from + n] && (!least || batch.L[from + n] < *least)) least = batch.L[from + n];
-  const T matters = enough(least, p.pair);
-  if (!(list.bound - short_.way(p.n) > static_cast<double>(matters))) return false;
-  for (std::size_t n = 0; n < list.count; ++n)
-    if (batch.counts[from + n] && batch.L[from + n] <= matters)
-      sights.push_back(batch.sight(from + n, list.triangle[n], surfaces_.triangles[list.triangle[n]].side));
+  if (!list.idle) return false;
+  const T way = longest_way * p.pair.s, pad = this->pad(p.pair);
+  double idle = short_.limit(p.n);
+  for (std::size_t n = 0; n < list.count; ++n) {
+    const Face<T> face = faces()[list.triangle[n]];
+    if (!face.real) return false;
+    const Sight<T> seen = sight_of<T>(list.triangle[n], 0, face, p.P);
+    idle = std::min(idle, static_cast<double>(free_way<T>(seen, face, p.pair, way + pad) - pad));
+  }
+  if (!(idle >= static_cast<double>(least_idle * p.pair.s))) return false;
+  short_.prolong(p.n, idle);
   return true;
 }
 
+/// Fills in `sights` with what may matter from the short list. Returns false if it does not hold.
+template <class T>
+bool BodyContact<T>::look_at_few(const Looker& p, std::vector<Sight<T>>& sights) const {
+  sights.clear();
+  if (!short_.holds(p.n)) return false;
+  const auto& list = short_[p.n];
+  const Vector<T> N = normal_of(p);
+  std::optional<T> least;
+  for (std::size_t n = 0; n < list.count; ++n) {
+    const std::uint32_t t = list.triangle[n];
+    const Face<T> face = faces()[t];
+    if (!counts<T>(face, p.pair, N)) continue;
+    sights.push_back(sight_of<T>(t, surfaces_.triangles[t].side, face, p.P));
+    if (!least || sights.back().L < *least) least = sights.back().L;
+  }
+  const T matters = enough(least, p.pair);
+  std::erase_if(sights, [&](const Sight<T>& seen) { return !(seen.L <= matters); });
+  return short_.limit(p.n) > static_cast<double>(matters);
+}
+
 /// The same from all that is near. Then makes the short list, of the triangles that may come to matter before
-/// the zone has gone by some way.
+/// the zone has gone by some way, or, of a point that touches none until then, of those that it may touch
+/// first.
 template <class T>
 void BodyContact<T>::look_at_all(const Looker& p, Piece& piece) {
-  const T way = T(0.2) * p.pair.s, pad = this->pad(p.pair);
+  const T way = longest_way * p.pair.s, pad = this->pad(p.pair);
   const T far = enough(std::nullopt, p.pair) + way;
   std::vector<Sight<T>>&sights = piece.sights, &around = piece.around;
   sights.clear();
   around.clear();
+  piece.by_distance.clear();
   // No longer than that every triangle of the list is a candidate.
   auto& list = short_.begin(p.n, static_cast<double>(way));
   bool lasts = true;
-  T idle = way;  // touches nothing until it has gone by this; most points do not
-  const bool closed = surfaces_.bodies[p.near.body].closed;
   SightBatch<T> batch;
+  batch.P = p.P;
   for (auto all = near_.triangles(p.near); !all.empty(); all = all.subspan(batch.count)) {
-    batch.count = std::min(all.size(), SightBatch<T>::room);
-    batch.ask(0, batch.count, p.P, std::nullopt);
-    for (std::size_t n = 0; n < batch.count; ++n) batch.set_corner(n, surfaces_.triangles[all[n]].corner);
-    look_(p.at, batch);
+    batch.count = std::min(all.size(), batch_room);
+    for (std::size_t n = 0; n < batch.count; ++n) batch.triangle[n] = static_cast<std::int32_t>(all[n]);
+    look_(faces(), batch);
     for (std::size_t n = 0; n < batch.count; ++n) {
-      if (!batch.counts[n]) lasts = false;  // it may get an area
-      if (!batch.counts[n] || !(batch.L[n] <= far)) continue;
-      const std::uint32_t t = all[n];
-      const auto& corner = surfaces_.triangles[t].corner;
-      const Face<T> face =
-          face_of<T>(p.at.position(corner[0]), p.at.position(corner[1]), p.at.position(corner[2]));
-      around.push_back(batch.sight(n, t, surfaces_.triangles[t].side));
-      if (idle > T(0)) idle = free_way<T>(around.back(), face, closed, p.pair, idle + pad) - pad;
-      if (counts(face, p) && is_candidate(p.near, t)) sights.push_back(around.back());
+      if (!batch.real[n]) lasts = false;  // it may get an area
+      if (!batch.real[n] || !(batch.L[n] <= far)) continue;
+      piece.by_distance.push_back({batch.L[n], static_cast<std::uint32_t>(around.size())});
+      around.push_back(batch.sight(n, surfaces_.triangles[all[n]].side));
     }
   }
-  if (idle < T(0.02) * p.pair.s) idle = T(0);
+  std::ranges::sort(piece.by_distance);
   piece.listed.push_back(p.n);
-  if (idle > T(0)) {
-    list.spare = lasts ? std::min(static_cast<double>(idle) - short_.way(p.n), list.spare) : -1.0;
+  // Most points touch nothing until they have gone by some way.
+  piece.by_way.clear();
+  T idle = way;
+  for (std::size_t n = 0; n < around.size() && idle >= least_idle * p.pair.s; ++n) {
+    const Sight<T>& seen = around[piece.by_distance[n].second];
+    const T free = free_way<T>(seen, faces()[seen.triangle], p.pair, way + pad) - pad;
+    idle = std::min(idle, free);
+    if (free < way) piece.by_way.push_back({free, piece.by_distance[n].second});
+  }
+  if (idle >= least_idle * p.pair.s) {
+    list.idle = lasts;
+    list.spare = lasts ? static_cast<double>(idle) - short_.way(p.n) : -1.0;
+    std::ranges::sort(piece.by_way);
+    list.bound = list_first(p, piece.by_way, way, way, around) - short_.way(p.n);
     return;
   }
+  const Vector<T> N = normal_of(p);
+  for (const Sight<T>& seen : around)
+    if (counts<T>(faces()[seen.triangle], p.pair, N) && is_candidate(p.near, p.pair, seen.triangle))
+      sights.push_back(seen);
   const Sight<T>* const first = nearest_of<T>(sights, p.pair.tie, [](const Sight<T>&) { return true; });
-  piece.by_distance.clear();
-  for (std::uint32_t n = 0; n < around.size(); ++n)
-    if (around[n].L <= far) piece.by_distance.push_back({around[n].L, n});
-  std::ranges::sort(piece.by_distance);
   const T most = enough(first ? std::optional(first->L) : std::nullopt, p.pair) + way;
-  for (const auto& [L, n] : piece.by_distance) {
-    if (L > most || list.count == short_.most) break;
-    const std::uint32_t t = around[n].triangle;
-    list.triangle[list.count++] = t;
-    if (!is_candidate(p.near, t)) lasts = false;  // it came within this step
-  }
-  const bool all = list.count == piece.by_distance.size();
-  const double bound = static_cast<double>(all ? far : piece.by_distance[list.count].first);
-  list.bound = bound - short_.way(p.n);
+  list.bound = list_first(p, piece.by_distance, most, far, around) - short_.way(p.n);
+  for (std::size_t n = 0; n < list.count; ++n)
+    if (!is_candidate(p.near, p.pair, list.triangle[n])) lasts = false;  // it came within this step
   if (!lasts) list.spare = -1.0;
   std::sort(list.triangle.begin(), list.triangle.begin() + list.count);
+}
+
+/// The first by distance, up to `most` [m], are those of the short list. Returns the distance of the next, or
+/// `beyond` if there is none [m].
+template <class T>
+double BodyContact<T>::list_first(const Looker& p, const Order& order, T most, T beyond,
+                                  const std::vector<Sight<T>>& around) {
+  auto& list = short_.list(p.n);
+  for (const auto& [distance, n] : order) {
+    if (distance > most || list.count == most_listed) return static_cast<double>(distance);
+    list.triangle[list.count++] = around[n].triangle;
+  }
+  return static_cast<double>(beyond);
 }
 
 /// The contacts of a point with a body, from what it sees: the first, then second sides.
 template <class T>
 void BodyContact<T>::touch(const Looker& p, Piece& piece) const {
-  const bool closed = surfaces_.bodies[p.near.body].closed;
+  const bool closed = p.pair.closed;
   const Sight<T>* const first = nearest_of<T>(piece.sights, p.pair.tie, [](const Sight<T>&) { return true; });
   if (!first) return;
   const auto gap =
@@ -421,63 +489,86 @@ void BodyContact<T>::touch(const Looker& p, Piece& piece) const {
 
 template <class T>
 void BodyContact<T>::add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap, Piece& piece) const {
-  const TouchPoint& point = surfaces_.points[p.near.point];
-  const auto& corner = surfaces_.triangles[seen.triangle].corner;
-  const auto& [b, c, face] = seen.at;
-  Touch<T>& made = piece.touches.emplace_back();
-  made.point = p.near.point;
-  made.triangle = seen.triangle;
-  made.carriers = point.single() ? 1 : 2;
-  made.particle = {point.carrier[0], point.carrier[1], corner[0], corner[1], corner[2]};
-  made.place = made.particle;  // until they are named
-  made.weight = {static_cast<T>(point.weight[0]), static_cast<T>(point.weight[1]), (T(1) - b) - c, b, c};
+  Touch<T>& made = begin_touch(p.n, seen.triangle, seen.at.b, seen.at.c, piece);
   made.n = gap.n;
   made.d = gap.d;
   made.reach = reach_of(p.near, p.pair);
-  made.k = p.pair.k;
-  made.c = p.pair.c;
-  made.mu = p.pair.mu;
-  const auto v = [&](std::uint32_t i) { return p.at.velocity(i); };
+  const auto v = [&](std::uint32_t point) { return vector_of(v_[point]); };
   const T u = dot3<T>(made.n, over_carriers<T>(made, v) - over_corners<T>(made, v));
   made.rest = made.k * (made.reach - made.d);
   if (at_end_) made.rest = made.rest + made.c * u;
   made.push = push_of<T>(made, u);
 }
 
+/// What has been found side by side.
+template <class T>
+void BodyContact<T>::add(std::size_t encounter, const TouchBatch<T>& batch, std::size_t place,
+                         Piece& piece) const {
+  Touch<T>& made = begin_touch(encounter, static_cast<std::uint32_t>(batch.triangle[place]), batch.b[place],
+                               batch.c[place], piece);
+  made.n = {batch.n[0][place], batch.n[1][place], batch.n[2][place]};
+  made.d = batch.d[place];
+  made.reach = table_[asked_[encounter].pair].reach;
+  made.rest = batch.rest[place];
+  made.push = batch.push[place];
+}
+
+/// With points in the place of places until these are known.
+template <class T>
+Touch<T>& BodyContact<T>::begin_touch(std::size_t encounter, std::uint32_t triangle, T b, T c,
+                                      Piece& piece) const {
+  const Asked& asked = asked_[encounter];
+  const auto& face = surfaces_.faces[triangle];
+  const TouchConstants<T>& pair = table_[asked.pair];
+  Touch<T>& made = piece.out->emplace_back();
+  made.point = near_.encounters()[encounter].point;
+  made.triangle = triangle;
+  made.carriers = asked.own[0] == asked.own[1] ? 1 : 2;
+  made.place = {asked.own[0], asked.own[1], face[0], face[1], face[2]};
+  made.weight = {asked.weight[0], asked.weight[1], (T(1) - b) - c, b, c};
+  made.k = pair.k;
+  made.c = pair.c;
+  made.mu = pair.mu;
+  return made;
+}
+
+/// Where pushes of bodies that overlapped in the initial state begin by now [m].
+template <class T>
+T BodyContact<T>::back(const Eased& eased, const TouchConstants<T>& pair) const {
+  return eased.d + pair.s * time_;
+}
+
 /// ρ, or what of it has come back since the initial state, in which the bodies overlapped.
 template <class T>
 T BodyContact<T>::reach_of(const Encounter& encounter, const TouchConstants<T>& pair) const {
-  if (eased_.empty()) return pair.reach;
+  if (!easing_) return pair.reach;
   const auto key = [](const auto& of) { return std::tuple(of.point, of.body); };
   const auto found = std::ranges::lower_bound(eased_, key(encounter), {}, key);
   if (found == eased_.end() || key(*found) != key(encounter)) return pair.reach;
-  const T back = found->d + pair.s * time_;
-  return back < pair.reach ? back : pair.reach;
+  return std::min(back(*found, pair), pair.reach);
 }
 
+/// Those of the points that contacts have in the place of places, in order: points of particles are in the
+/// order of these.
 template <class T>
 void BodyContact<T>::name_particles() {
-  for (const std::uint32_t p : particles_) place_of_[p] = nowhere;
   particles_.clear();
   for (const Touch<T>& touch : touches_)
-    for (const std::uint32_t p : touch.particle) place_of_[p] = 0;
-  // Points of particles are in the order of these.
-  if (!touches_.empty()) {
-    for (const auto& [particle, point] : surface_) {
-      if (place_of_[particle] == nowhere) continue;
-      place_of_[particle] = static_cast<std::uint32_t>(particles_.size());
-      particles_.push_back(particle);
+    for (const std::uint32_t p : touch.place) named_[p / 64] |= std::uint64_t{1} << p % 64;
+  for (std::uint32_t n = 0; n < named_.size(); ++n) {
+    for (std::uint64_t bits = std::exchange(named_[n], 0); bits != 0; bits &= bits - 1) {
+      const std::uint32_t p = 64 * n + static_cast<std::uint32_t>(std::countr_zero(bits));
+      place_of_[p] = static_cast<std::uint32_t>(particles_.size());
+      particles_.push_back(surfaces_.points[p].carrier[0]);
     }
   }
   for (Touch<T>& touch : touches_)
-    for (std::size_t n = 0; n < 5; ++n) touch.place[n] = place_of_[touch.particle[n]];
+    for (std::uint32_t& place : touch.place) place = place_of_[place];
 }
 
 template <class T>
 void BodyContact<T>::find_friction() {
-  share_.assign(particles_.size(), T(0));
-  share<T>(touches_, share_);
-  const auto part = [&](std::uint32_t place) { return inverse_mass_[place] * share_[place]; };
+  const auto part = [&](std::uint32_t place) { return share_[place]; };
   const auto v1 = [&](std::uint32_t place) { return v1_[place]; };
   for (Touch<T>& touch : touches_) {
     if (!(touch.push > T(0))) continue;
@@ -499,13 +590,13 @@ T BodyContact<T>::energy() const {
 template <class T>
 std::uint64_t BodyContact<T>::bytes() const {
   const auto of = [](const auto&... lists) { return ((lists.capacity() * sizeof(lists[0])) + ...); };
-  std::uint64_t all = sizeof(*this) + near_.bytes() + normals_.bytes() + short_.bytes() +
+  std::uint64_t all = sizeof(*this) + near_.bytes() + normals_.bytes() + short_.bytes() + ways_.bytes() +
                       surfaces_.points.size() * sizeof(TouchPoint) +
-                      surfaces_.triangles.size() * (sizeof(TouchTriangle) + 3 * sizeof(std::uint32_t)) +
-                      of(eased_, own_, surface_, known_places_, met_, met_from_, places_, pieces_, touches_,
-                         particles_, place_of_, inverse_mass_, share_, v1_);
-  for (const Piece& p : pieces_)
-    all += of(p.queue, p.ends, p.sights, p.around, p.by_distance, p.touches, p.listed);
+                      surfaces_.triangles.size() *
+                          (sizeof(TouchTriangle) + sizeof(surfaces_.faces[0]) + 3 * sizeof(std::uint32_t)) +
+                      of(eased_, weight_[0], weight_[1], x_, v_, own_, asked_, surface_, met_, places_,
+                         pieces_, touches_, named_, particles_, place_of_, share_, v1_);
+  for (const Piece& p : pieces_) all += of(p.sights, p.around, p.by_distance, p.by_way, p.touches, p.listed);
   return all;
 }
 

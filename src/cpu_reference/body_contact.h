@@ -2,6 +2,8 @@
 // Contact between bodies, and of a body with itself, in the force evaluations of a step (docs/contact.md).
 // The particles may lie anywhere: the cpu backend runs this on its own arrays.
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,11 +13,13 @@
 
 #include "cpu_reference/ball_particles.h"
 #include "cpu_reference/near_triangles.h"
+#include "cpu_reference/touch_batch.h"
 #include "cpu_reference/touch_geometry.h"
 #include "cpu_reference/touch_normals.h"
 #include "cpu_reference/touch_rule.h"
 #include "cpu_reference/touch_shortlists.h"
 #include "cpu_reference/touch_sights.h"
+#include "cpu_reference/touch_ways.h"
 #include "model/touch_surface.h"
 
 namespace aspic::reference {
@@ -25,9 +29,14 @@ template <class T>
 class TouchTable {
  public:
   TouchTable(const ContactSettings& contact, const std::vector<TouchBody>& bodies, double ahead_step);
+  /// Number of the pair.
+  std::uint32_t of(std::uint32_t point_of, std::uint32_t face_of) const {
+    return point_of == face_of ? kind_[point_of] : (1 + kind_[point_of]) * kinds_ + kind_[face_of];
+  }
+  const TouchConstants<T>& operator[](std::uint32_t pair) const { return pairs_[pair]; }
+  const std::vector<TouchConstants<T>>& pairs() const { return pairs_; }
   const TouchConstants<T>& at(std::uint32_t point_of, std::uint32_t face_of) const {
-    const std::uint32_t a = kind_[point_of], b = kind_[face_of];
-    return point_of == face_of ? self_[a] : pairs_[a * self_.size() + b];
+    return pairs_[of(point_of, face_of)];
   }
   /// Whether any pair has friction.
   bool rubs() const {
@@ -35,8 +44,9 @@ class TouchTable {
   }
 
  private:
-  std::vector<std::uint32_t> kind_;              // by body
-  std::vector<TouchConstants<T>> self_, pairs_;  // by kind; by kinds
+  std::vector<std::uint32_t> kind_;       // by body
+  std::uint32_t kinds_ = 0;               // so many
+  std::vector<TouchConstants<T>> pairs_;  // by kind, of a body with itself; then by both kinds
 };
 
 template <class T>
@@ -67,7 +77,7 @@ class BodyContact {
   void for_candidates(const Take& take) const {
     for (const Encounter& near : near_.encounters())
       for (const std::uint32_t t : near_.triangles(near))
-        if (is_candidate(near, t)) take(near.point, t);
+        if (is_candidate(near, table_.at(body_of(near.point), near.body), t)) take(near.point, t);
   }
 
   /// Finds the contacts at a place of the step, for forces there and those below. Returns whether there is
@@ -80,16 +90,23 @@ class BodyContact {
   /// The same on many threads: run(count, task) calls task(n) for n below count, in any order.
   template <class Run>
   bool find(const Particles& at, const Run& run) {
-    short_.follow(at, run);
-    normals_.make(at, run);
+    if (!std::exchange(laid_out_, false) || at.x != start_->x || at.v != start_->v) lay_out(at);
+    short_.follow(x_, run);
+    normals_.make(x_, run);
     const std::size_t pieces = pieces_of(near_.encounters().size());
     pieces_.resize(std::max(pieces_.size(), pieces));
-    run(pieces, [&](std::size_t n) { find_in(n, at); });
+    touches_.clear();
+    in_turn_ = 0;
+    run(pieces, [&](std::size_t n) { find_in(n); });
     return gather();
   }
-  /// How what is seen is computed, to the same bits as look_one_by_one().
-  using Look = void (*)(const Particles&, SightBatch<T>&);
-  void set_look(Look look) { look_ = look; }
+  /// How what is seen is computed, to the same bits as look_one_by_one(); and what points touch whose short
+  /// lists hold, which without the second are looked at one by one.
+  using Look = void (*)(const FacesInSpace<T>&, SightBatch<T>&);
+  void set_side_by_side(Look look, TouchSideBySide<T> touch) {
+    look_ = look;
+    side_by_side_ = touch;
+  }
   /// With an ahead_step: whether find() looks where the step may end, not where it begins.
   void set_at_end(bool on) { at_end_ = on; }
   /// Those of find(), ascending by point, body of the triangle, and first contact before second sides.
@@ -108,13 +125,14 @@ class BodyContact {
   /// The same with pushes alone; friction is found, but not added.
   template <class InverseMass>
   void push(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f) {
-    spread<T>(touches_, f, [](const Touch<T>& touch) { return Vector<T>(touch.push * touch.n); });
+    share_.assign(particles_.size(), T(0));
+    spread_pushes<T>(touches_, f, share_);
     if (!rubs_) return;
-    inverse_mass_.clear();
-    v1_.clear();
+    v1_.resize(particles_.size());
     for (std::size_t n = 0; n < particles_.size(); ++n) {
-      inverse_mass_.push_back(inverse_mass(particles_[n]));
-      v1_.push_back(start.velocity(particles_[n]) + (h_ * inverse_mass_[n]) * f[n]);
+      const T w = inverse_mass(particles_[n]);
+      v1_[n] = start.velocity(particles_[n]) + (h_ * w) * f[n];
+      share_[n] = w * share_[n];
     }
     find_friction();
   }
@@ -129,54 +147,51 @@ class BodyContact {
 
  private:
   void ease_apart(const Model& model, bool ahead);
-  bool is_candidate(const Encounter& near, std::uint32_t triangle) const;
+  bool is_candidate(const Encounter& near, const TouchConstants<T>& pair, std::uint32_t triangle) const;
   /// A point and a body, in the middle of a find().
   struct Looker {
     std::size_t n;  // of the encounter
     const Encounter& near;
-    std::uint32_t own;  // the point's body
     const TouchConstants<T>& pair;
-    bool opposing;
-    Vector<T> P, N;  // the point and, where only faces count that turn to it, its normal
-    const Particles& at;
+    Vector<T> P;
   };
+  using Order = std::vector<std::pair<T, std::uint32_t>>;  // numbers, by something [m]
   /// What one task of find() works with.
   struct Piece {
-    std::vector<Looker> queue;      // whose listed triangles are looked at together
-    std::vector<std::size_t> ends;  // where those of each end in the batch
     std::vector<Sight<T>> sights, around;
-    std::vector<std::pair<T, std::uint32_t>> by_distance;  // of those around
-    std::vector<Touch<T>> touches;
-    std::vector<std::size_t> listed;  // encounters whose short lists are new
+    Order by_distance, by_way;             // those around
+    std::vector<Touch<T>>* out = nullptr;  // contacts go there:
+    std::vector<Touch<T>> touches;         // until all before are with touches_, here
+    std::vector<std::size_t> listed;       // encounters whose short lists are new
   };
-  static constexpr std::size_t piece_size = 256;
+  static constexpr std::size_t piece_size = batch_room;
   static std::size_t pieces_of(std::size_t count) { return (count + piece_size - 1) / piece_size; }
-  /// How far particles have gone since lists of what is near were made, and against each other where bodies
-  /// meet [m].
-  struct Gone {
-    T far, apart;
-  };
-  Gone gone(const Particles& at) const;
   void list_used(const Particles& at);
   void want(std::size_t encounter);
-  void find_in(std::size_t piece, const Particles& at);
+  void find_in(std::size_t piece);
+  void lay_out(const Particles& at);
+  void ask(std::size_t first, std::size_t end, TouchBatch<T>& batch) const;
+  TouchTables<T> tables() const;
   bool gather();
-  bool counts(const Face<T>& face, const Looker& p) const;
+  FacesInSpace<T> faces() const { return {surfaces_.faces, x_}; }
   T pad(const TouchConstants<T>& pair) const;
   T enough(std::optional<T> least, const TouchConstants<T>& pair) const;
-  Looker looker(std::size_t encounter, const Particles& at) const;
-  void put(const Looker& p, SightBatch<T>& batch) const;
-  void look(SightBatch<T>& batch, Piece& piece);
-  bool look_at_few(const Looker& p, const SightBatch<T>& batch, std::size_t from,
-                   std::vector<Sight<T>>& sights) const;
+  Looker looker(std::size_t encounter) const;
+  Vector<T> normal_of(const Looker& p) const;
+  bool stays_apart(const Looker& p);
+  bool look_at_few(const Looker& p, std::vector<Sight<T>>& sights) const;
   void look_at_all(const Looker& p, Piece& piece);
+  double list_first(const Looker& p, const Order& order, T most, T beyond,
+                    const std::vector<Sight<T>>& around);
   void touch(const Looker& p, Piece& piece) const;
   void add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap, Piece& piece) const;
+  void add(std::size_t encounter, const TouchBatch<T>& batch, std::size_t place, Piece& piece) const;
+  Touch<T>& begin_touch(std::size_t encounter, std::uint32_t triangle, T b, T c, Piece& piece) const;
   void name_particles();
   void find_friction();
   std::uint32_t body_of(std::uint32_t point) const;
-  std::uint32_t body_of_particle(std::uint32_t particle) const;  ///< of a surface
   std::uint32_t body_of_triangle(std::uint32_t triangle) const;
+  T back(const Eased& eased, const TouchConstants<T>& pair) const;
   T reach_of(const Encounter& encounter, const TouchConstants<T>& pair) const;
 
   TouchSurfaces surfaces_;
@@ -187,24 +202,37 @@ class BodyContact {
   double timestep_;
   bool at_end_ = false;
   Look look_ = look_one_by_one<T>;
+  TouchSideBySide<T> side_by_side_ = nullptr;
   std::vector<Eased> eased_;  // ascending by point and body
+  bool easing_ = false;       // some are in this step
   T time_ = T(0);             // since the initial state [s]
   std::optional<Particles> start_;
+  bool laid_out_ = false;  // they are laid out as they are at the start
+  TouchWays<T> ways_;
   TouchNormals<T> normals_;
   TouchShortlists<T> short_;
-  std::vector<std::uint32_t> own_;  // by encounter: the point's body
+  std::vector<Row<T>> x_, v_;  // by point, of those that meetings name
+  /// Of an encounter, what a batch asks with.
+  struct Asked {
+    std::array<std::uint32_t, 2> own;
+    std::array<T, 2> weight;
+    std::uint32_t pair;
+  };
+  std::vector<Asked> asked_;              // by encounter
+  std::array<std::vector<T>, 2> weight_;  // of carriers, by point
+  std::vector<std::uint32_t> own_;        // by encounter: the point's body
   struct SurfaceParticle {
     std::uint32_t particle, point;
   };
   std::vector<SurfaceParticle> surface_;  // ascending by both
-  std::vector<Vector<T>> known_places_;   // of these, when the lists of what is near were made
-  std::vector<std::uint32_t> met_;        // particles that meetings name
-  std::vector<Vector<T>> met_from_;       // where they were then
+  std::vector<SurfaceParticle> met_;      // those that meetings name, ascending
   std::vector<Vec3> places_;              // by point
   std::vector<Piece> pieces_;
+  std::atomic<std::size_t> in_turn_ = 0;  // all pieces before this one are with touches_
   std::vector<Touch<T>> touches_;
-  std::vector<std::uint32_t> particles_, place_of_;
-  std::vector<T> inverse_mass_, share_;  // by place among the particles, as v1_
+  std::vector<std::uint64_t> named_;                 // a bit for each point
+  std::vector<std::uint32_t> particles_, place_of_;  // the latter by point
+  std::vector<T> share_;  // by place among the particles, as v1_; times the inverse mass for friction
   std::vector<Vector<T>> v1_;
 };
 

@@ -71,7 +71,9 @@ class TouchAhead {
   explicit TouchAhead(const Model& model)
       : contact_(model, model.simulation.timestep), h_(static_cast<T>(model.simulation.timestep)) {}
 
-  void set_look(typename BodyContact<T>::Look look) { contact_.set_look(look); }
+  void set_side_by_side(typename BodyContact<T>::Look look, TouchSideBySide<T> touch) {
+    contact_.set_side_by_side(look, touch);
+  }
 
   /// A step from the state of this number begins. Returns whether anything is near enough to touch in it.
   /// `force(p)`: gravity, springs and pulls where the step begins [N], inverse_mass(p) [1/kg], of a particle;

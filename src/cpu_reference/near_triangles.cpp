@@ -180,11 +180,6 @@ NearTriangles::NearTriangles(const Model& model, const TouchSurfaces& surfaces, 
       contact_(model.contact),
       slack_(std::numeric_limits<double>::infinity()),
       with_meetings_(meetings) {
-  std::vector<std::uint32_t> point_of(model.particle_count());
-  for (std::uint32_t p = 0; p < surfaces.points.size(); ++p)
-    if (surfaces.points[p].single()) point_of[surfaces.points[p].carrier[0]] = p;
-  for (const TouchTriangle& t : surfaces.triangles)
-    corners_.push_back({point_of[t.corner[0]], point_of[t.corner[1]], point_of[t.corner[2]]});
   for (const TouchBody& body : surfaces.bodies) slack_ = std::min(slack_, slack * body.spacing);
   boxes_.resize(surfaces.triangles.size());
   // With more, bodies have more others about them that they never meet.
@@ -240,7 +235,7 @@ void NearTriangles::build() {
       const TouchBody& body = surfaces_.bodies[faces];
       for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
         boxes_[t] = {};
-        for (const std::uint32_t corner : corners_[t]) boxes_[t].add(built_[corner]);
+        for (const std::uint32_t corner : corners(t)) boxes_[t].add(built_[corner]);
       }
       grid_.build(std::span(boxes_).subspan(body.first_triangle, body.triangle_count));
       gridded = faces;
@@ -286,7 +281,7 @@ void NearTriangles::find_meetings(const std::vector<Bounds>& around) {
     double most = 0.0;
     for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
       Bounds box;
-      for (const std::uint32_t corner : corners_[t]) box.add(built_[corner]);
+      for (const std::uint32_t corner : corners(t)) box.add(built_[corner]);
       most = std::max(most, extent(box));
     }
     return most;
@@ -295,9 +290,10 @@ void NearTriangles::find_meetings(const std::vector<Bounds>& around) {
   const auto add = [&](std::uint32_t of, std::uint32_t other) {
     const TouchBody& body = surfaces_.bodies[of];
     if (edges[of] < 0.0) edges[of] = longest(body);
-    // Points on edges, and triangles, are no further from their particles than that.
-    const double margin =
-        margin_between(contact_, body, surfaces_.bodies[other], of == other) + far_slack_ + pad_ + edges[of];
+    // Points on edges, and triangles, are no further from their particles than an edge, and these no further
+    // from their neighbours, of which their normals are made.
+    const double margin = margin_between(contact_, body, surfaces_.bodies[other], of == other) + pad_ +
+                          std::max(far_slack_ + edges[of], slack_ + 2.0 * edges[of]);
     for (std::uint32_t p = body.first_point; p < body.first_point + body.surface_particles; ++p)
       if (around[other].holds(built_[p], margin)) met_.push_back(p);
   };
@@ -341,13 +337,13 @@ void NearTriangles::drop_neighbours(std::uint32_t point, std::vector<std::uint32
   const double least = least_rest_distance * spacing_at(point);
   std::erase_if(triangles, [&](std::uint32_t t) {
     return std::ranges::any_of(
-        corners_[t], [&](std::uint32_t corner) { return !(length(rest_[point] - rest_[corner]) > least); });
+        corners(t), [&](std::uint32_t corner) { return !(length(rest_[point] - rest_[corner]) > least); });
   });
 }
 
 std::uint64_t NearTriangles::bytes() const {
-  return corners_.capacity() * sizeof(corners_[0]) + (rest_.capacity() + built_.capacity()) * sizeof(Vec3) +
-         boxes_.capacity() * sizeof(Bounds) + encounters_.capacity() * sizeof(Encounter) +
+  return (rest_.capacity() + built_.capacity()) * sizeof(Vec3) + boxes_.capacity() * sizeof(Bounds) +
+         encounters_.capacity() * sizeof(Encounter) +
          (triangles_.capacity() + found_.capacity() + met_.capacity()) * sizeof(std::uint32_t) +
          meetings_.capacity() * sizeof(Meeting);
 }

@@ -76,6 +76,8 @@ class NearTriangles {
   /// other since then [m].
   double slack() const { return slack_; }
   std::span<const Meeting> meetings() const { return meetings_; }
+  /// Of triangles and of points; ascending. Those of bodies whose boxes were further apart are in no list.
+  std::span<const std::array<std::uint32_t, 2>> partners() const { return partners_; }
   /// Points of particles, which meetings name.
   std::span<const std::uint32_t> met() const { return met_; }
   /// More than rounding of places in single precision can amount to [m].
@@ -90,6 +92,10 @@ class NearTriangles {
 
  private:
   void build();
+  /// Points of a triangle's corners.
+  std::span<const std::uint32_t, 3> corners(std::uint32_t triangle) const {
+    return std::span(surfaces_.faces[triangle]).first<3>();
+  }
   void find_partners(const std::vector<Bounds>& around);
   void find_meetings(const std::vector<Bounds>& around);
   void meet(std::uint32_t a, std::uint32_t b);
@@ -98,9 +104,8 @@ class NearTriangles {
 
   const TouchSurfaces& surfaces_;
   ContactSettings contact_;
-  std::vector<std::array<std::uint32_t, 3>> corners_;  // of triangles, by point
-  std::vector<Vec3> rest_;                             // places at rest, by point; none without self contact
-  double slack_ = 0.0, far_slack_ = 0.0, pad_ = 0.0;   // [m]
+  std::vector<Vec3> rest_;                            // places at rest, by point; none without self contact
+  double slack_ = 0.0, far_slack_ = 0.0, pad_ = 0.0;  // [m]
   bool with_meetings_ = false;
   std::vector<Vec3> built_;                             // places at which the lists were made
   std::vector<Bounds> boxes_;                           // of triangles, then

@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "cpu_reference/ball_particles.h"
 #include "cpu_reference/number_set.h"
-#include "cpu_reference/touch_geometry.h"
+#include "cpu_reference/touch_sights.h"
 #include "model/touch_surface.h"
 
 namespace aspic::reference {
@@ -16,8 +15,6 @@ namespace aspic::reference {
 template <class T>
 class TouchNormals {
  public:
-  using Particles = ParticleView<const T>;
-
   /// `surfaces` must outlive it.
   explicit TouchNormals(const TouchSurfaces& surfaces)
       : surfaces_(surfaces),
@@ -43,24 +40,35 @@ class TouchNormals {
     triangles_.sort();
   }
 
-  /// Makes anew what is wanted; run(count, task) as in BodyContact::find().
+  /// Makes anew what is wanted, with particles at these places, by point; run(count, task) as in
+  /// BodyContact::find().
   template <class Run>
-  void make(const Particles& at, const Run& run) {
+  void make(std::span<const Row<T>> x, const Run& run) {
     ++round_;
-    for_pieces(triangles_.added(), run, [&](std::uint32_t t) { g_[t] = area_normal_of(t, at); });
+    for_pieces(triangles_.added(), run, [&](std::uint32_t t) {
+      const auto& face = surfaces_.faces[t];
+      g_[t] = row_of(area_normal<T>(vector_of(x[face[0]]), vector_of(x[face[1]]), vector_of(x[face[2]])));
+    });
     for_pieces(points_.added(), run, [&](std::uint32_t point) {
-      normals_[point] = sum(point, [&](std::uint32_t t) { return g_[t]; });
+      four(normals_[point]) = sum(point, [&](std::uint32_t t) -> Four { return four(g_[t]); });
       made_[point] = round_;
     });
   }
   /// Of a particle's point: Σ g of the triangles at it, of which only the sign of products matters.
-  Vector<T> at(std::uint32_t point, const Particles& at) const {
-    if (made_[point] == round_) return normals_[point];
-    return sum(point, [&](std::uint32_t t) { return area_normal_of(t, at); });
+  Vector<T> at(std::uint32_t point, std::span<const Row<T>> x) const {
+    if (made_[point] == round_) return vector_of(normals_[point]);
+    return sum(point, [&](std::uint32_t t) {
+      const auto& face = surfaces_.faces[t];
+      return area_normal<T>(vector_of(x[face[0]]), vector_of(x[face[1]]), vector_of(x[face[2]]));
+    });
   }
 
+  /// By point; of those that are wanted.
+  const Row<T>* rows() const { return normals_.data(); }
+
   std::uint64_t bytes() const {
-    return (g_.capacity() + normals_.capacity()) * sizeof(Vector<T>) + made_.capacity() * sizeof(round_);
+    return g_.capacity() * sizeof(g_[0]) + normals_.capacity() * sizeof(normals_[0]) +
+           made_.capacity() * sizeof(round_);
   }
 
  private:
@@ -72,14 +80,14 @@ class TouchNormals {
       for (std::size_t n = piece * size; n < end; ++n) make(all[n]);
     });
   }
-  Vector<T> area_normal_of(std::uint32_t triangle, const Particles& at) const {
-    const auto& corner = surfaces_.triangles[triangle].corner;
-    return area_normal<T>(at.position(corner[0]), at.position(corner[1]), at.position(corner[2]));
-  }
+  /// Rows as vectors of four, which compilers keep in one register.
+  using Four = Eigen::Array<T, 4, 1>;
+  static Eigen::Map<const Four> four(const Row<T>& row) { return Eigen::Map<const Four>(row.data()); }
+  static Eigen::Map<Four> four(Row<T>& row) { return Eigen::Map<Four>(row.data()); }
   template <class Normal>
-  Vector<T> sum(std::uint32_t point, const Normal& g) const {
+  auto sum(std::uint32_t point, const Normal& g) const {
     const auto triangles = surfaces_.triangles_at(point);
-    Vector<T> sum = g(triangles.front());
+    auto sum = g(triangles.front());
     for (const std::uint32_t t : triangles.subspan(1)) sum = sum + g(t);
     return sum;
   }
@@ -87,8 +95,8 @@ class TouchNormals {
   const TouchSurfaces& surfaces_;
   NumberSet points_, triangles_;  // wanted, and the triangles at them
   std::uint64_t round_ = 0;
-  std::vector<Vector<T>> g_;         // by triangle
-  std::vector<Vector<T>> normals_;   // by point,
+  std::vector<Row<T>> g_;            // by triangle
+  std::vector<Row<T>> normals_;      // by point,
   std::vector<std::uint64_t> made_;  // with the round they are of
 };
 

@@ -12,31 +12,17 @@
 
 namespace aspic::reference {
 
-/// Constants of a pair of bodies in the solver's precision (TouchPair).
-template <class T>
-struct TouchConstants {
-  T k;       ///< stiffness [N/m]
-  T c;       ///< damping [N·s/m]
-  T mu;      ///< μ
-  T s;       ///< spacing [m]
-  T reach;   ///< ρ [m]
-  T sight;   ///< distance up to which contacts are found [m]: ρ, or more where they are known ahead
-  T depth;   ///< D [m]
-  T margin;  ///< by which the boxes of candidates are widened [m]
-  T tie;     ///< distances that differ by less are equal [m]
-};
-
-/// A point that touches a triangle. Particles are named twice: by their index, and by their place in the list
-/// of all that contacts name.
+/// A point that touches a triangle.
 template <class T>
 struct Touch {
-  std::uint32_t point = 0, triangle = 0;       ///< numbers in TouchSurfaces
-  std::uint32_t carriers = 1;                  ///< 1 or 2: particles that carry the point
-  std::array<std::uint32_t, 5> particle = {};  ///< the carriers, from [2] on the triangle's corners
-  std::array<std::uint32_t, 5> place = {};     ///< of each in the list
-  std::array<T, 5> weight = {};                ///< of each, ≥ 0
-  Vector<T> n = Vector<T>::Zero();             ///< unit normal towards the point
-  T d = T(0);                                  ///< distance [m]
+  std::uint32_t point = 0, triangle = 0;  ///< numbers in TouchSurfaces
+  std::uint32_t carriers = 1;             ///< 1 or 2: particles that carry the point
+  /// Of the carriers, from [2] on of the triangle's corners: places in the list of all particles that
+  /// contacts name.
+  std::array<std::uint32_t, 5> place = {};
+  std::array<T, 5> weight = {};       ///< of each, ≥ 0
+  Vector<T> n = Vector<T>::Zero();    ///< unit normal towards the point
+  T d = T(0);                         ///< distance [m]
   T reach = T(0);                     ///< where pushes begin [m]: ρ, or less while bodies are eased apart
   T k = T(0), c = T(0), mu = T(0);    ///< of the pair [N/m], [N·s/m], 1
   T rest = T(0);                      ///< the push, were there no motion [N]; it may pull
@@ -88,14 +74,22 @@ void spread(std::span<const Touch<T>> touches, std::vector<Vector<T>>& f, const 
       });
 }
 
-/// S: how much of the pushes [N] falls to each particle, whose mass is divided among its contacts in this
-/// proportion.
+/// The same with the pushes, and S: how much of them [N] falls to each particle, whose mass is divided among
+/// its contacts in this proportion.
 template <class T>
-void share(std::span<const Touch<T>> touches, std::vector<T>& S) {
-  const auto add = [&](const Touch<T>& touch, std::uint32_t place, T weight) {
-    if (touch.push > T(0)) S[place] = S[place] + weight * touch.push;
-  };
-  for_sums<T>(touches, add, add);
+void spread_pushes(std::span<const Touch<T>> touches, std::vector<Vector<T>>& f, std::vector<T>& S) {
+  for_sums<T>(
+      touches,
+      [&](const Touch<T>& touch, std::uint32_t place, T weight) {
+        if (!(touch.push > T(0))) return;
+        f[place] = f[place] + weight * Vector<T>(touch.push * touch.n);
+        S[place] = S[place] + weight * touch.push;
+      },
+      [&](const Touch<T>& touch, std::uint32_t place, T weight) {
+        if (!(touch.push > T(0))) return;
+        f[place] = f[place] - weight * Vector<T>(touch.push * touch.n);
+        S[place] = S[place] + weight * touch.push;
+      });
 }
 
 /// Friction [N] on the point of a contact that pushes: the impulse that ends the slip of the velocities v₁ in

@@ -2,6 +2,7 @@
 // Which of the triangles near a point may matter to it for a while: those that cannot come near enough before
 // bodies have moved by a certain way against each other are left out. Where bodies rest on each other, or
 // move together, a look at a point is a look at a few triangles. Generous: nothing in a state depends on it.
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -14,9 +15,9 @@
 #include <vector>
 
 #include "aspic/vec.h"
-#include "cpu_reference/ball_particles.h"
 #include "cpu_reference/near_triangles.h"
 #include "cpu_reference/number_set.h"
+#include "cpu_reference/touch_batch.h"
 #include "model/touch_surface.h"
 
 namespace aspic::reference {
@@ -27,20 +28,24 @@ namespace aspic::reference {
 template <class T>
 class TouchShortlists {
  public:
-  static constexpr std::size_t most = 14;
+  /// Of triangles that may matter, or, of an `idle` point, which touches nothing while it holds, of those
+  /// that it may touch first.
   struct List {
-    double spare = -1.0;      ///< holds while the zone's way is no more than this [m]
-    double bound = 0.0;       ///< triangles that are left out are no nearer than this less the way [m]
+    double spare = -1.0;  ///< holds while the zone's way is no more than this [m]
+    /// Triangles that are left out are no nearer than this less the way, or of an idle point may not be
+    /// touched before it has gone by so much [m].
+    double bound = 0.0;
     std::uint32_t count = 0;  ///< of triangles
-    std::array<std::uint32_t, most> triangle;  ///< ascending
+    bool idle = false;
+    std::array<std::uint32_t, most_listed> triangle;  ///< ascending, but of an idle point
   };
 
   explicit TouchShortlists(const TouchSurfaces& surfaces) : surfaces_(surfaces) {}
 
-  /// For other encounters, of points of the bodies `own`, with particles at these places. Lists of encounters
-  /// that there were before live on.
-  void reset(const NearTriangles& near, std::span<const std::uint32_t> own, const ParticleView<const T>& at) {
-    measure_all(at);
+  /// For other encounters, of points of the bodies `own`, with particles at these places, by point. Lists of
+  /// encounters that there were before live on.
+  void reset(const NearTriangles& near, std::span<const std::uint32_t> own, std::span<const Row<T>> x) {
+    for (Zone& zone : zones_) zone.way = way_of(zone, x);
     std::vector<List> before = std::exchange(lists_, {});
     std::vector<Encounter> known = std::exchange(encounters_, {});
     const std::vector<std::uint32_t> zone_before = std::exchange(zone_, {});
@@ -55,20 +60,20 @@ class TouchShortlists {
       lists_[n] = before[old];
       wear(lists_[n], zones_before[zone_before[old]].way);
     }
-    make_zones(near, own, at);
+    make_zones(near, own, x);
   }
 
   /// Particles are at these places now; run(count, task) as in BodyContact::find().
   template <class Run>
-  void follow(const ParticleView<const T>& at, const Run& run) {
+  void follow(std::span<const Row<T>> x, const Run& run) {
     const std::size_t pieces = (zones_.size() + zones_in_piece - 1) / zones_in_piece;
     run(pieces, [&](std::size_t n) {
       for (std::size_t z = n * zones_in_piece; z < std::min(zones_.size(), (n + 1) * zones_in_piece); ++z) {
         Zone& zone = zones_[z];
-        zone.way = way_of(zone, at);
+        zone.way = way_of(zone, x);
         // Lists that are made from here on last longest if the way begins here.
         if (8 * zone.lost > zone.encounters_end - zone.encounters_first || !(zone.way < nowhere))
-          renew(zone, at);
+          renew(zone, x);
       }
     });
   }
@@ -77,15 +82,28 @@ class TouchShortlists {
   double way(std::size_t encounter) const { return zones_[zone_[encounter]].way; }
   bool holds(std::size_t encounter) const { return way(encounter) <= lists_[encounter].spare; }
   const List& operator[](std::size_t encounter) const { return lists_[encounter]; }
+  List& list(std::size_t encounter) { return lists_[encounter]; }
+  const std::vector<List>& lists() const { return lists_; }
+  /// Whether an encounter has to be looked at.
+  bool may_touch(std::size_t encounter) const {
+    return !holds(encounter) || (lists_[encounter].count > 0 && !lists_[encounter].idle);
+  }
+  /// List::bound now [m].
+  double limit(std::size_t encounter) const { return lists_[encounter].bound - way(encounter); }
 
   /// Begins a list that holds, if nothing else is against it, while the zone goes no further than `spare`
   /// [m].
   List& begin(std::size_t encounter, double spare) {
-    std::atomic_ref(zones_[zone_[encounter]].lost).fetch_add(1, std::memory_order_relaxed);
     List& list = lists_[encounter];
-    list.spare = spare - way(encounter);
+    prolong(encounter, spare);
     list.count = 0;
+    list.idle = false;
     return list;
+  }
+  /// From here on a list holds while the zone goes no further than `spare` [m].
+  void prolong(std::size_t encounter, double spare) {
+    std::atomic_ref(zones_[zone_[encounter]].lost).fetch_add(1, std::memory_order_relaxed);
+    lists_[encounter].spare = spare - way(encounter);
   }
 
   std::uint64_t bytes() const {
@@ -106,10 +124,6 @@ class TouchShortlists {
     double way = 0.0;
   };
 
-  static std::array<T, 3> place(std::uint32_t particle, const ParticleView<const T>& at) {
-    const std::size_t n = particle * at.stride;
-    return {at.x[0][n], at.x[1][n], at.x[2][n]};
-  }
   static void wear(List& list, double way) {
     // What is no number has gone anywhere.
     list.spare = way < nowhere ? list.spare - way : -1.0;
@@ -118,61 +132,50 @@ class TouchShortlists {
 
   /// What corners and carriers have gone lies in two boxes; no further than from one end to the other have
   /// any two gone against each other.
-  double way_of(const Zone& zone, const ParticleView<const T>& at) const {
-    T sum = T(0);
-    const auto around = [&](std::uint32_t from, std::uint32_t end) {
-      std::array<T, 3> low, high;
-      low.fill(std::numeric_limits<T>::max());
-      high.fill(-std::numeric_limits<T>::max());
-      for (std::uint32_t n = from; n < end; ++n) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          const T gone = at.x[c][followed_[n] * at.stride] - from_[n][c];
-          low[c] = gone < low[c] ? gone : low[c];
-          high[c] = gone > high[c] ? gone : high[c];
-          sum += gone;
-        }
+  double way_of(const Zone& zone, std::span<const Row<T>> x) const {
+    using Array = Eigen::Array<T, 4, 1>;
+    using Map = Eigen::Map<const Array>;
+    Array sum = Array::Zero();
+    const auto around = [&](std::uint32_t first, std::uint32_t end) {
+      std::pair<Array, Array> box = {Array::Constant(std::numeric_limits<T>::max()),
+                                     Array::Constant(-std::numeric_limits<T>::max())};
+      for (std::uint32_t n = first; n < end; ++n) {
+        const Array gone = Map(x[followed_[n]].data()) - Map(from_[n].data());
+        box.first = box.first.min(gone);
+        box.second = box.second.max(gone);
+        sum += gone;
       }
-      return std::pair(low, high);
+      return box;
     };
-    const auto [corner_low, corner_high] = around(zone.corners, zone.carriers);
-    const auto [carrier_low, carrier_high] = around(zone.carriers, zone.end);
-    if (!std::isfinite(sum)) return nowhere;  // what is no number has gone anywhere
-    Vec3 furthest;
-    double all = 0.0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      furthest[static_cast<int>(c)] = static_cast<double>(
-          std::max({corner_high[c] - carrier_low[c], carrier_high[c] - corner_low[c], T(0)}));
-      all = std::max(
-          {all, std::abs(static_cast<double>(corner_low[c])), std::abs(static_cast<double>(corner_high[c]))});
-    }
+    const auto corners = around(zone.corners, zone.carriers), carriers = around(zone.carriers, zone.end);
+    if (!std::isfinite(sum.sum())) return nowhere;  // what is no number has gone anywhere
+    const Array furthest = (corners.second - carriers.first).max(carriers.second - corners.first);
+    const double way = std::sqrt(static_cast<double>(furthest.square().sum()));
+    const double all = static_cast<double>(corners.first.abs().max(corners.second.abs()).maxCoeff());
     // Rounding of the differences above.
-    return 1.001 * length(furthest) + 1e-6 * all;
+    return 1.001 * way + 1e-6 * all;
   }
 
   /// The way of a zone begins here.
-  void renew(Zone& zone, const ParticleView<const T>& at) {
+  void renew(Zone& zone, std::span<const Row<T>> x) {
     for (std::uint32_t n = zone.encounters_first; n < zone.encounters_end; ++n)
       wear(lists_[order_[n]], zone.way);
-    for (std::uint32_t n = zone.corners; n < zone.end; ++n) from_[n] = place(followed_[n], at);
+    for (std::uint32_t n = zone.corners; n < zone.end; ++n) from_[n] = x[followed_[n]];
     zone.way = zone.lost = 0;
   }
-  void measure_all(const ParticleView<const T>& at) {
-    for (Zone& zone : zones_) zone.way = way_of(zone, at);
-  }
 
-  void make_zones(const NearTriangles& near, std::span<const std::uint32_t> own,
-                  const ParticleView<const T>& at) {
+  void make_zones(const NearTriangles& near, std::span<const std::uint32_t> own, std::span<const Row<T>> at) {
     using Key = std::tuple<std::uint32_t, std::uint32_t, std::array<std::int64_t, 3>>;
     std::vector<std::pair<Key, std::uint32_t>> keyed;
     keyed.reserve(encounters_.size());
     for (std::uint32_t n = 0; n < encounters_.size(); ++n) {
       const Encounter& e = encounters_[n];
-      const Vector<T> x = at.position(surfaces_.points[e.point].carrier[0]);
+      const Row<T>& x = at[surfaces_.points[e.point].own[0]];
       const double size =
           zone_size * std::max(surfaces_.bodies[own[n]].spacing, surfaces_.bodies[e.body].spacing);
       std::array<std::int64_t, 3> cell = {};
       for (std::size_t c = 0; c < 3; ++c) {
-        const double place = static_cast<double>(x[static_cast<Eigen::Index>(c)]) / size;
+        const double place = static_cast<double>(x[c]) / size;
         cell[c] = std::abs(place) < 1e15 ? static_cast<std::int64_t>(std::floor(place)) : 0;
       }
       keyed.push_back({{own[n], e.body, cell}, n});
@@ -191,11 +194,11 @@ class TouchShortlists {
         zone_[n] = static_cast<std::uint32_t>(zones_.size());
         order_.push_back(n);
         for (const std::uint32_t t : near.triangles(encounters_[n])) triangle_set_.add(t);
-        for (const std::uint32_t p : surfaces_.points[encounters_[n].point].carrier) carrier_set_.add(p);
+        for (const std::uint32_t p : surfaces_.points[encounters_[n].point].own) carrier_set_.add(p);
       }
       zone.encounters_end = static_cast<std::uint32_t>(k);
       for (const std::uint32_t t : triangle_set_.added())
-        for (const std::uint32_t p : surfaces_.triangles[t].corner) corner_set_.add(p);
+        for (std::size_t c = 0; c < 3; ++c) corner_set_.add(surfaces_.faces[t][c]);
       const auto follow = [&](NumberSet& set) {
         followed_.insert(followed_.end(), set.added().begin(), set.added().end());
         set.clear();
@@ -208,7 +211,7 @@ class TouchShortlists {
       zones_.push_back(zone);
     }
     from_.clear();
-    for (const std::uint32_t p : followed_) from_.push_back(place(p, at));
+    for (const std::uint32_t p : followed_) from_.push_back(at[p]);
   }
 
   const TouchSurfaces& surfaces_;
@@ -217,8 +220,8 @@ class TouchShortlists {
   std::vector<std::uint32_t> zone_;  // by encounter
   std::vector<Zone> zones_;
   std::vector<std::uint32_t> order_;     // encounters by zone
-  std::vector<std::uint32_t> followed_;  // particles by zone: corners of triangles, then carriers of points
-  std::vector<std::array<T, 3>> from_;   // where the ways of these begin
+  std::vector<std::uint32_t> followed_;  // points by zone: corners of triangles, then carriers of points
+  std::vector<Row<T>> from_;             // where the ways of these begin
   NumberSet triangle_set_, corner_set_, carrier_set_;
 };
 

@@ -103,6 +103,15 @@ void list_triangles_at(TouchSurfaces& all) {
   all.from.push_back(static_cast<std::uint32_t>(all.at_particle.size()));
 }
 
+/// Fills in faces.
+void name_corners(TouchSurfaces& all, std::size_t particles) {
+  std::vector<std::uint32_t> point_of(particles);
+  for (std::uint32_t p = 0; p < all.points.size(); ++p)
+    if (all.points[p].single()) point_of[all.points[p].carrier[0]] = p;
+  for (const auto& [corner, side] : all.triangles)
+    all.faces.push_back({point_of[corner[0]], point_of[corner[1]], point_of[corner[2]], side});
+}
+
 bool has_surface(const Body& body) {
   return body.style != SurfaceStyle::cords || !body.listed_surface.quads.empty();
 }
@@ -130,6 +139,7 @@ TouchSurfaces touch_surfaces(const Model& model) {
     all.bodies.push_back(touch);
   }
   list_triangles_at(all);
+  name_corners(all, model.particle_count());
   return all;
 }
 
@@ -160,7 +170,7 @@ std::uint64_t touch_bytes(const Model& model) {
   const TouchSurfaces all = touch_surfaces(model);
   // With places of points, boxes and corners of triangles (src/cpu_reference/near_triangles.h).
   return all.points.size() * (sizeof(TouchPoint) + 3 * sizeof(Vec3)) +
-         all.triangles.size() * (sizeof(TouchTriangle) + 9 * sizeof(double)) +
+         all.triangles.size() * (sizeof(TouchTriangle) + sizeof(all.faces[0]) + 9 * sizeof(double)) +
          (all.from.size() + all.at_particle.size() + model.particle_count()) * sizeof(std::uint32_t);
 }
 

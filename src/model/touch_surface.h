@@ -54,6 +54,7 @@ struct TouchSurfaces {
   std::vector<TouchBody> bodies;
   std::vector<TouchPoint> points;
   std::vector<TouchTriangle> triangles;
+  std::vector<std::array<std::uint32_t, 4>> faces;  ///< of triangles: the points of the corners, and the side
   /// Triangles at the particle of point p, ascending: at_particle[from[p]] … at_particle[from[p + 1] − 1];
   /// none at the points of edges.
   std::vector<std::uint32_t> from, at_particle;

@@ -39,7 +39,7 @@ V random_vector(std::mt19937& random, double size) {
 /// How bodies move in some steps, by step and in spacings.
 struct Motion {
   const char* what;
-  double drift, turn, strain, noise;
+  double drift, turn, strain, noise, together = 0.0;
 };
 
 /// Moves each body of the model as one, strains it about its middle and shakes its particles.
@@ -47,6 +47,7 @@ class Mover {
  public:
   Mover(const Model& model, unsigned seed) : model_(model), random_(seed) {}
   void turn_round(const Motion& motion) {
+    together_ = random_vector(random_, motion.together * spacing);
     ways_.clear();
     for (std::size_t n = 0; n < model_.bodies.size(); ++n)
       ways_.push_back({random_vector(random_, motion.drift * spacing),
@@ -62,8 +63,8 @@ class Mover {
           Eigen::AngleAxisf(static_cast<float>(motion.turn), axis).toRotationMatrix();
       for (Eigen::Index i = 0; i < own.cols(); ++i) {
         const V from = own.col(i) - middle;
-        // Back towards the others.
-        own.col(i) = V(0.999f * middle + drift + turned * (from + V(strain.cwiseProduct(from))) +
+        // Back towards the others, or away with them.
+        own.col(i) = V(0.999f * middle + drift + together_ + turned * (from + V(strain.cwiseProduct(from))) +
                        random_vector(random_, motion.noise * spacing));
       }
     }
@@ -75,6 +76,7 @@ class Mover {
   };
   const Model& model_;
   std::mt19937 random_;
+  V together_ = V::Zero();
   std::vector<Way> ways_;
 };
 
@@ -84,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Motion{"rest", 0.0, 0.0, 0.0, 1e-6}, Motion{"drift", 3e-3, 0.0, 0.0, 1e-4},
                     Motion{"turn", 1e-3, 5e-3, 0.0, 1e-4}, Motion{"strain", 1e-3, 1e-3, 2e-3, 1e-4},
                     Motion{"shake", 1e-3, 1e-3, 0.0, 5e-3}, Motion{"fast", 0.1, 0.05, 1e-3, 1e-3},
-                    Motion{"jumps", 0.3, 0.3, 0.0, 0.0}),
+                    Motion{"jumps", 0.3, 0.3, 0.0, 0.0}, Motion{"falling", 3e-3, 1e-3, 0.0, 1e-4, 0.3}),
     [](const auto& each) { return each.param.what; });
 
 // The same bodies looked at by one that has looked before, and by one whose lists are new.
