@@ -88,10 +88,10 @@ void add_balls(ModelSettings& settings, const Vec3& position) {
   settings.balls.push_back({0.3, 1.0, position + Vec3{0.1, 0.75, 0.2}, {0.0, -5.0, 0.0}, {}});
   LauncherSettings& launcher = settings.launchers.emplace_back();
   launcher.count = 3;
-  launcher.interval = 0.1;
-  launcher.from = {position + Vec3{-0.5, 1.5, -0.5}, position + Vec3{0.5, 2.0, 0.5}};
+  launcher.interval = 0.02;
+  launcher.from = {position + Vec3{-0.5, 1.5, -0.5}, position + Vec3{0.5, 1.7, 0.5}};
   launcher.towards = {position + Vec3{-0.3, 0.0, -0.3}, position + Vec3{0.3, 0.0, 0.3}};
-  launcher.speed_factor = 3.0;
+  launcher.speed_factor = 9.0;
   launcher.ball = {0.2, 0.5};
 }
 
@@ -157,7 +157,7 @@ void add_bodies(ModelSettings& settings, Bodies bodies, const Vec3& at) {
       add_actuators(settings);
       break;
     case Bodies::all:
-      settings.cubes = {cube(4, 1.6, at), cube(3, 1.0, at + Vec3{0.2, 1.6, 0.0})};
+      settings.cubes = {cube(4, 1.6, at), cube(3, 1.0, at + Vec3{0.2, 1.5, 0.0})};
       add_net(settings, at + Vec3{0.0, 0.2, -1.9});
       add_cloth(settings, at + Vec3{0.0, 0.0, 1.6});
       add_balls(settings, at + Vec3{0.2, 3.1, 0.0});
@@ -243,13 +243,15 @@ ModelSettings settings_of(const EqualityCase& row) {
     terrain.friction = 1.2;
     terrain.mass = 30.0;
   } else if (row.ground == Ground::moving) {
+    terrain.restitution = 0.3;
     terrain.motion = TerrainMotion{{0.5, 1.0, 0.2}, 0.2, 0.9, 0.6};
   }
   // A cloth would fall through the ring: it lands on its tube.
-  const bool through = row.bodies == Bodies::cloth && row.shape == TerrainShape::torus;
+  const bool through =
+      (row.bodies == Bodies::cloth || row.bodies == Bodies::all) && row.shape == TerrainShape::torus;
   const Vec3 aside = {through ? 3.0 : 0.0, 0.0, 0.0};
   add_bodies(settings, row.bodies, terrain_row(row.shape).drop + aside);
-  set_down(settings, 0.05);
+  set_down(settings, 0.01);
   return settings;
 }
 
@@ -261,7 +263,10 @@ Model model_of(const EqualityCase& row) {
 
 std::uint64_t steps_of(const EqualityCase& row) {
   const bool rests = row.ground == Ground::holding;
-  return row_of(row.integrator).traits.long_steps ? (rests ? 40 : 25) : (rests ? 900 : 500);
+  if (row_of(row.integrator).traits.long_steps) return rests ? 40 : 20;
+  // Bodies that touch take longest, and do so from the start.
+  if (row.bodies == Bodies::all) return rests ? 200 : 150;
+  return rests ? 300 : 250;
 }
 
 void set_down(ModelSettings& settings, double gap) {

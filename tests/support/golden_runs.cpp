@@ -42,11 +42,12 @@ const std::map<Key, Entry>& file_entries() {
   return entries;
 }
 
-/// Fewer where steps are long: at most some tenths of a second in all.
+/// Fewer where steps are long or bodies large. The ground and its friction act within 60.
 std::uint64_t steps_for(const ModelSettings& settings, Integrator method) {
   const bool long_steps = row_of(method).traits.long_steps;
-  if (predict_counts(settings).particles > 10000) return long_steps ? 1 : 3;
-  return long_steps ? 8 : 120;
+  const std::uint64_t particles = predict_counts(settings).particles;
+  if (particles > 10000) return long_steps ? 1 : 3;
+  return long_steps ? 8 : particles > 1500 ? 60 : 120;
 }
 
 /// The index of the first body that differs.
