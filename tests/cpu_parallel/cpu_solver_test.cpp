@@ -12,6 +12,7 @@
 
 #include "cpu_reference/reference_solver.h"
 #include "support/contact_rules.h"
+#include "support/equality_cases.h"
 #include "support/golden_runs.h"
 #include "support/integrator_names.h"
 #include "support/lattice_bodies.h"
@@ -97,13 +98,14 @@ TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInTheCoveringSet) {
 
 // Planes and rows shorter and longer than a vector, of two particles too.
 TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInBoxesOfAnyEdges) {
-  const Model model = test::build(test::with_odd_boxes(test::low_cube(2, GetParam(), ContactModel::coulomb)));
-  for (const unsigned threads : {1u, 3u}) expect_equal(model, steps(12, 200), threads);
+  ModelSettings settings = test::with_odd_boxes(test::low_cube(2, GetParam(), ContactModel::coulomb));
+  test::set_down(settings, 0.01);
+  for (const unsigned threads : {1u, 3u}) expect_equal(test::build(settings), steps(12, 60), threads);
 }
 
 TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInABodyWithEmptyCells) {
   const ModelSettings settings = test::low_cube(2, GetParam(), ContactModel::coulomb);
-  expect_equal(test::with_cells(settings, test::lattice_of("xxx,x.x,xxx;xxx,...,x..")), steps(12, 200), 2);
+  expect_equal(test::with_cells(settings, test::lattice_of("xxx,x.x,xxx;xxx,...,x..")), steps(12, 120), 2);
 }
 
 // Slices of a row each, of several rows, and of parts of rows; materials that change within a slice; threads
@@ -140,9 +142,10 @@ TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsOnTerrainThatMovesSideways) {
     SCOPED_TRACE(name_of(contact));
     ModelSettings settings = test::low_cube(5, GetParam(), contact);
     settings.terrain[0].motion = TerrainMotion{{1.0, 0.0, 0.4}, 0.3, 1.1, 0.2};
-    expect_equal(test::build(settings), steps(60, 400), 2);
+    test::set_down(settings, 0.01);
+    expect_equal(test::build(settings), steps(25, 160), 2);
     settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
-    expect_equal(test::build(settings), steps(60, 400), 2);
+    expect_equal(test::build(settings), steps(25, 160), 2);
   }
 }
 
@@ -158,20 +161,22 @@ TEST_P(EveryMethodOnTheCpu, SeesTerrainThatComesFromFar) {
     const Model still = test::build(settings);
     settings.terrain[1].motion = TerrainMotion{{1.0, 0.0, 0.0}, 18.0, 0.1, 0.23};
     const Model model = test::build(settings);
-    expect_equal(model, 400, 2);
+    expect_equal(model, 120, 2);
     const auto without = reference(still), with = reference(model);
-    ASSERT_FALSE((*without->advance(400)).has_value());
-    ASSERT_FALSE((*with->advance(400)).has_value());
+    ASSERT_FALSE((*without->advance(120)).has_value());
+    ASSERT_FALSE((*with->advance(120)).has_value());
     EXPECT_FALSE(*without->state() == *with->state()) << "the wall does not reach the cube";
   }
 }
 
 TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsWithAnyNumberOfThreads) {
   for (const ContactModel contact : both_models) {
-    const Model model = test::build(test::low_cube(9, GetParam(), contact));
+    ModelSettings settings = test::low_cube(9, GetParam(), contact);
+    test::set_down(settings, 0.01);
+    const Model model = test::build(settings);
     for (const unsigned threads : {1u, 2u, 5u}) {
       SCOPED_TRACE(fmt::format("{}, {} threads", name_of(contact), threads));
-      expect_equal(model, steps(20, 150), threads);
+      expect_equal(model, steps(10, 60), threads);
     }
   }
 }
@@ -183,14 +188,15 @@ ModelSettings cube_and_cords(Integrator integrator, ContactModel contact) {
   settings.goal_nets[0].cord = true;
   settings.goal_nets[0].shear.stiffness = settings.goal_nets[0].bending.stiffness = 300.0;
   settings.contact.bodies = false;  // they lie in each other
+  test::set_down(settings, 0.01);
   return settings;
 }
 
 TEST(CpuSolver, HasTheReferencesBitsWithEveryInstructionSet) {
   with_every_instruction_set([] {
-    expect_equal(test::build(cube_and_cords(Integrator::runge_kutta_4, ContactModel::coulomb)), 200, 2);
+    expect_equal(test::build(cube_and_cords(Integrator::runge_kutta_4, ContactModel::coulomb)), 60, 2);
     for (const ContactModel contact : both_models)
-      expect_equal(test::build(cube_and_cords(Integrator::implicit_euler, contact)), 30, 2);
+      expect_equal(test::build(cube_and_cords(Integrator::implicit_euler, contact)), 10, 2);
   });
 }
 

@@ -36,7 +36,7 @@ TEST_F(ActuatedOnTheDevice, HasTheReferencesBits) {
             ? ContactModel::course
             : ContactModel::coulomb;
     const Model model = test::build(test::actuated(integrator, contact));
-    const std::uint64_t steps = row_of(integrator).traits.long_steps ? 25 : 250;
+    const std::uint64_t steps = row_of(integrator).traits.long_steps ? 12 : 120;
     const Inputs inputs = {.channels = {0.4}};
     const auto expected = reference(model);
     ASSERT_TRUE(expected->set_inputs(inputs).ok());
@@ -77,7 +77,7 @@ TEST_F(ActuatedOnTheDevice, FollowsInputsConstantsAndLoads) {
     const Model other = test::build(settings);
     const auto gpu = solver(model);
     const auto expected = reference(model);
-    const std::uint64_t steps = row_of(integrator).traits.long_steps ? 3 : 40;
+    const std::uint64_t steps = row_of(integrator).traits.long_steps ? 3 : 20;
     for (Solver* const each : {static_cast<Solver*>(gpu.get()), expected.get()}) {
       for (int n = 0; n < 5; ++n) {
         ASSERT_TRUE(each->set_inputs({.channels = {0.2 * n}}).ok());
@@ -96,7 +96,7 @@ TEST_F(ActuatedOnTheDevice, FollowsInputsConstantsAndLoads) {
 
 // More classes than the uniform block holds: a phase for each cell.
 TEST_F(ActuatedOnTheDevice, HoldsAsManyClassesAsPhasesMake) {
-  ModelSettings settings = test::cube_on_plane(6, 2.1);
+  ModelSettings settings = test::cube_on_plane(6, 2.01);
   ActuatorSettings& actuator = settings.actuators.emplace_back();
   actuator.amplitude = 0.2;
   actuator.frequency = 4.0;
@@ -105,10 +105,10 @@ TEST_F(ActuatedOnTheDevice, HoldsAsManyClassesAsPhasesMake) {
   const Model model = test::build(settings);
   ASSERT_GT(model.spring_classes.size(), 640u);
   const auto expected = reference(model);
-  ASSERT_FALSE((*expected->advance(200)).has_value());
+  ASSERT_FALSE((*expected->advance(100)).has_value());
   for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
     const auto gpu = solver(model, path);
-    ASSERT_FALSE((*gpu->advance(200)).has_value());
+    ASSERT_FALSE((*gpu->advance(100)).has_value());
     EXPECT_EQ(*gpu->state(), *expected->state());
   }
 }

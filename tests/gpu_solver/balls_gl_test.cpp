@@ -92,7 +92,7 @@ TEST_F(BallsOnTheDevice, ACubeBetweenTerrains) {
   settings.balls.push_back({0.5, 2.0, {3.2, 3.0, 0.3}, {0.0, -4.0, 0.0}, {}});  // in the same place
   for (const bool spin : {true, false}) {
     settings.contact.spin = spin;
-    expect_equal(test::build(settings), 1000);
+    expect_equal(test::build(settings), 600);
   }
 }
 
@@ -139,7 +139,7 @@ TEST_F(BallsOnTheDevice, APitWithMorePartnersThanOneList) {
     overlapping += length(start.ball_position[b] - start.ball_position[0]) < 1.1;
   }
   ASSERT_GT(overlapping, 40);
-  expect_equal(model, 300);
+  expect_equal(model, 120);
 }
 
 TEST_F(BallsOnTheDevice, ImplicitEulerWithoutParticles) {

@@ -71,7 +71,7 @@ TEST_F(ConstantsOnTheDevice, AreThoseOfANewSolver) {
     const SharedModel before = shared(test::model_of(row));
     const SharedModel after = with_other_constants(*before, number++ % 2 == 0);
     const bool newton = row_of(before->simulation.integrator).kind() == MethodKind::newton;
-    const std::uint64_t steps = newton ? 4 : 20;
+    const std::uint64_t steps = newton ? 2 : 8;
     const Inputs hands = test::busy_inputs(*before, 1).at(2);
     using Make = std::function<std::unique_ptr<Solver>(const SharedModel&)>;
     const Make makers[] = {

@@ -60,7 +60,7 @@ class PullOnTheDevice : public aspic::testing::GlTest {
 void PullOnTheDevice::expect_the_references_bits(bool every_path) {
   std::size_t turn = 0;
   for (const Integrator integrator : all_integrators) {
-    const std::uint64_t s = integrator == Integrator::implicit_euler ? 10 : 50;
+    const std::uint64_t s = integrator == Integrator::implicit_euler ? 6 : 30;
     const std::vector<Input> inputs = {
         {0, Pull{63, {3.0, 4.0, 2.0}, 900.0, 20.0}},                // a corner
         {2 * s, Pull{63, {3.1, 4.5, -2.0}, 900.0, 20.0}},           // the hand moves
@@ -112,7 +112,7 @@ void PullOnTheDevice::expect_the_references_bits_of_balls(bool both_spins) {
         settings.contact.spin = spin;
         settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
         settings.balls.push_back({0.5, 1.0, {3.2, 1.6, 0.1}, {0.0, 0.0, 0.0}, {}});
-        const std::uint64_t s = integrator == Integrator::implicit_euler ? 10 : 50;
+        const std::uint64_t s = integrator == Integrator::implicit_euler ? 6 : 30;
         const std::vector<Input> inputs = {{0, Pull{0, {0.0, 3.0, 0.0}, 400.0, 20.0, true}},
                                            {2 * s, Pull{0, {5.0, -1.0, 1.0}, 400.0, 20.0, true}},
                                            {3 * s, Pull{1, {3.0, 2.0, 1.0 / 3.0}, 1e3 / 3.0, 0.0, true}},

@@ -49,10 +49,10 @@ TEST_F(Touching, HasTheReferencesBitsUnderEveryMethodAndOnEveryPath) {
     SCOPED_TRACE(fmt::format("{}, {}, {}", name_of(integrator), path.name, name_of(contact)));
     ModelSettings settings = pile(integrator, contact);
     const Model model = test::build(settings);
-    const State expected = by_reference(model, 70);
-    EXPECT_EQ(by_device(model, 70, path.path), expected);
+    const State expected = by_reference(model, 35);
+    EXPECT_EQ(by_device(model, 35, path.path), expected);
     settings.contact.bodies = false;
-    EXPECT_FALSE(by_reference(test::build(settings), 70) == expected) << "nothing touches";
+    EXPECT_FALSE(by_reference(test::build(settings), 35) == expected) << "nothing touches";
   }
 }
 
@@ -62,10 +62,10 @@ void Touching::expect_the_references_bits(const ForcePathRow& path, ContactModel
   ModelSettings settings = pile(Integrator::implicit_euler, contact);
   settings.simulation.timestep = 0.005;
   const Model model = test::build(settings);
-  const State expected = by_reference(model, 30);
-  EXPECT_EQ(by_device(model, 30, path.path), expected);
+  const State expected = by_reference(model, 15);
+  EXPECT_EQ(by_device(model, 15, path.path), expected);
   settings.contact.bodies = false;
-  EXPECT_FALSE(by_reference(test::build(settings), 30) == expected) << "nothing touches";
+  EXPECT_FALSE(by_reference(test::build(settings), 15) == expected) << "nothing touches";
 }
 
 TEST_F(Touching, HasTheReferencesBitsUnderImplicitEulerOnEveryPath) {
@@ -92,7 +92,7 @@ TEST_F(Touching, IsSolvedFromAnywhere) {
   settings.contact.body_friction = 0.0;
   settings.cubes[1].position.y -= 0.3;
   const Model model = test::build(settings);
-  EXPECT_EQ(by_device(model, 20), by_reference(model, 20));
+  EXPECT_EQ(by_device(model, 10), by_reference(model, 10));
   settings.contact.body_gap = 0.15;
   settings.contact.body_friction = 0.8;
   const SharedModel other = shared(test::build(settings));
@@ -101,14 +101,14 @@ TEST_F(Touching, IsSolvedFromAnywhere) {
   inputs.pinned.push_back(40);
   const auto expected = std::move(*make_reference_solver(model, Precision::single));
   const auto solver = gpu(model);
-  const State start = by_reference(model, 30);
+  const State start = by_reference(model, 15);
   for (Solver* const each : {expected.get(), static_cast<Solver*>(solver.get())}) {
     ASSERT_TRUE(each->load(start).ok());
     for (int n = 0; n < 5; ++n) ASSERT_TRUE(each->advance(1).ok());
     ASSERT_TRUE(each->set_constants(other).ok());
-    ASSERT_TRUE(each->advance(15).ok());
+    ASSERT_TRUE(each->advance(8).ok());
     ASSERT_TRUE(each->set_inputs(inputs).ok());
-    ASSERT_TRUE(each->advance(15).ok());
+    ASSERT_TRUE(each->advance(8).ok());
   }
   EXPECT_EQ(*solver->state(), *expected->state());
 }
@@ -118,7 +118,7 @@ TEST_F(Touching, HasTheReferencesBitsOfBodiesThatTouchThemselvesWithoutFriction)
   settings.contact.self = true;
   settings.contact.body_friction = 0.0;
   const Model model = test::build(settings);
-  EXPECT_EQ(by_device(model, 120), by_reference(model, 120));
+  EXPECT_EQ(by_device(model, 60), by_reference(model, 60));
 }
 
 // Of two bodies the smaller friction counts; of one none at all.
@@ -126,7 +126,7 @@ TEST_F(Touching, HasTheReferencesBitsOfBodiesWithFrictionOfTheirOwn) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::implicit_euler}) {
     ModelSettings settings = pile(integrator, ContactModel::coulomb);
     if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 0.005;
-    const std::uint64_t steps = integrator == Integrator::implicit_euler ? 30 : 120;
+    const std::uint64_t steps = integrator == Integrator::implicit_euler ? 15 : 60;
     const State alike = by_reference(test::build(settings), steps);
     settings.cubes[0].friction = 0.7;
     settings.cubes[1].friction = 0.05;
@@ -164,12 +164,12 @@ TEST_F(Touching, GoesOnFromAnywhere) {
   const SharedModel other = shared(test::build(settings));
   const auto expected = std::move(*make_reference_solver(model, Precision::single));
   const auto solver = gpu(model);
-  ASSERT_TRUE(solver->load(by_reference(model, 60)).ok());
-  ASSERT_TRUE(expected->load(by_reference(model, 60)).ok());
+  ASSERT_TRUE(solver->load(by_reference(model, 40)).ok());
+  ASSERT_TRUE(expected->load(by_reference(model, 40)).ok());
   for (Solver* const each : {expected.get(), static_cast<Solver*>(solver.get())}) {
-    for (int n = 0; n < 20; ++n) ASSERT_TRUE(each->advance(1).ok());
+    for (int n = 0; n < 10; ++n) ASSERT_TRUE(each->advance(1).ok());
     ASSERT_TRUE(each->set_constants(other).ok());
-    ASSERT_TRUE(each->advance(60).ok());
+    ASSERT_TRUE(each->advance(30).ok());
   }
   EXPECT_EQ(*solver->state(), *expected->state());
 }
