@@ -26,7 +26,6 @@ std::size_t colours(const std::vector<unsigned char>& rgb, std::size_t most) {
 
 TEST_F(AppWindow, EveryBuiltInSceneOpensAndDraws) {
   open("cube-plane");
-  resize(roomy[0], roomy[1]);
   std::vector<unsigned char> before;
   for (const BuiltinScene& scene : list_builtin_scenes()) {
     EXPECT_EQ(app().scene.editor().source(), scene.name);

@@ -24,7 +24,7 @@ using testing::StartsWith;
 
 class Building : public Stage {
  protected:
-  std::array<int, 2> window_size() const override { return roomy; }
+  std::array<int, 2> window_size() const override { return {1280, 480}; }
   /// Opens a scene with these sections open alone.
   void open_with(const std::string& scene, const std::vector<std::string>& sections,
                  std::vector<std::string> overrides = {}) {

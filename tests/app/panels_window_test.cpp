@@ -18,7 +18,7 @@ using app::Box;
 
 class Panels : public Stage {
  protected:
-  std::array<int, 2> window_size() const override { return roomy; }
+  std::array<int, 2> window_size() const override { return {1280, 480}; }
   void set(std::string_view path, const Value& value, std::size_t index = 0) {
     app().scene.set_value(*find_parameter(path), index, value, "");
     frames(1);

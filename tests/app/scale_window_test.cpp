@@ -8,7 +8,7 @@ namespace {
 
 class ScaleRows : public Stage {
  protected:
-  std::array<int, 2> window_size() const override { return roomy; }
+  std::array<int, 2> window_size() const override { return {1280, 480}; }
   const ViewSettings& view() { return app().scene.scene().view; }
 };
 

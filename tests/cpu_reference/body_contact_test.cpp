@@ -73,7 +73,7 @@ Impact impact(const ModelSettings& settings, double v, Precision precision = Pre
     end = advanced(*solver, 5);
     const double over = measure(model, end).total() / before.total() - 1.0;
     result.over = std::max(result.over, over);
-    if (contacts_in(model, end).count == 0) result.apart = std::max(result.apart, over);
+    if (over > result.apart && contacts_in(model, end).count == 0) result.apart = over;
   }
   const Vec3 momentum = measure(model, end).momentum - before.momentum;
   result.momentum = length(momentum) / scale;

@@ -1,6 +1,6 @@
 #pragma once
 // A test with a renderer.
-#include "cpu_reference/reference_solver.h"
+#include "cpu_parallel/cpu_solver.h"
 #include "render/read_back.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
@@ -38,9 +38,9 @@ class Studio : public testing::GlTest {
   std::unique_ptr<Renderer> renderer_;
 };
 
-/// The state after some steps of the reference.
+/// The state after some steps, the reference's by the backend that takes least time.
 inline State after(const Model& model, std::uint64_t steps) {
-  auto solver = make_reference_solver(model, Precision::single);
+  auto solver = make_cpu_solver(model, {.threads = 1});
   EXPECT_TRUE(solver.ok());
   EXPECT_TRUE((*solver)->advance(steps).ok());
   auto state = (*solver)->state();
