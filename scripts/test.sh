@@ -16,7 +16,8 @@ core      each room's own tests; the gpu solvers on llvmpipe with a covering set
 full      core, and by label:
   pages        pages of every built-in scene in Chromium and Firefox; pages that simulate, with every scene and method, and the site;
                those that simulate are skipped where scripts/wasm.sh has made no module
-  products     equal bits in products of methods, terrains, scenes and paths, and for more particles
+  products     equal bits in products of methods, terrains, scenes and paths, and for more particles; cubes that come to rest
+               and stick, under the rest of the explicit methods
   drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads, on zink and for
                Khronos' reference compiler
   crowds       hundreds of balls in one place

@@ -71,7 +71,9 @@ TEST_F(PassTimes, NameAndCountThePassesOfAnExplicitStep) {
       auto solver = solver_for(model, path);
       solver->set_profiling(true);
       EXPECT_TRUE(solver->pass_times().empty());
-      for (const std::uint64_t steps : {1u, 10u, 300u}) ASSERT_FALSE((*solver->advance(steps)).has_value());
+      const std::uint64_t many = integrator == Integrator::explicit_euler ? 300 : 30;
+      for (const std::uint64_t steps : {std::uint64_t{1}, std::uint64_t{10}, many})
+        ASSERT_FALSE((*solver->advance(steps)).has_value());
       Counts expected = {{"springs, integration, contact", stages}};
       if (path == ForcePath::lattice) expected = {{"cubes: springs, integration, contact", stages}};
       if (path == ForcePath::per_spring)

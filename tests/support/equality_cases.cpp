@@ -266,6 +266,8 @@ std::uint64_t steps_of(const EqualityCase& row) {
   if (row_of(row.integrator).traits.long_steps) return rests ? 40 : 20;
   // Bodies that touch take longest, and do so from the start.
   if (row.bodies == Bodies::all) return rests ? 200 : 150;
+  // Of the course model friction acts late.
+  if (row.contact == ContactModel::coulomb) return rests ? 200 : 180;
   return rests ? 300 : 250;
 }
 

@@ -47,7 +47,7 @@ std::uint64_t steps_for(const ModelSettings& settings, Integrator method) {
   const bool long_steps = row_of(method).traits.long_steps;
   const std::uint64_t particles = predict_counts(settings).particles;
   if (particles > 10000) return long_steps ? 1 : 3;
-  return long_steps ? 8 : particles > 1500 ? 60 : 120;
+  return long_steps ? 8 : particles > 5000 ? 45 : particles > 1500 ? 60 : 120;
 }
 
 /// The index of the first body that differs.
