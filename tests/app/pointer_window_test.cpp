@@ -253,10 +253,10 @@ TEST_F(Pointer, PullsAndPinsAreMarked) {
   point_at(corner);
   ASSERT_TRUE(app().pointer.hovered().has_value());
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
-  frames(30);
+  frames(12);
   const auto before = pixels();
   app().cursor(p.x - 60.0, p.y - 90.0);
-  frames(30);
+  frames(12);
   ASSERT_TRUE(simulation().hand().has_value());
   ASSERT_TRUE(app().pointer.hovered().has_value());
   EXPECT_EQ(app().pointer.hovered()->particle, 999u) << "who is pulled is told of, wherever the mouse is";
@@ -265,14 +265,14 @@ TEST_F(Pointer, PullsAndPinsAreMarked) {
   EXPECT_GT(change(before, pixels(), p.x - 60.0, p.y - 90.0, 8.0), 5000) << "the anchor";
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
   app().cursor(5.0, 300.0);
-  frames(30);
+  frames(12);
   const auto after = pixels();
   EXPECT_EQ(change(after, before, p.x - 60.0, p.y - 90.0, 8.0), 0);
   point_at(corner);
   app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_PRESS, GLFW_MOD_CONTROL);
   app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_RELEASE, GLFW_MOD_CONTROL);
   app().cursor(5.0, 300.0);
-  frames(30);
+  frames(12);
   EXPECT_GT(change(after, pixels(), p.x, p.y, 5.0), 2000) << "a diamond";
 }
 
