@@ -56,10 +56,11 @@ std::optional<CellFault> check_layers(const CellLayers& layers) {
                           z, y, excerpt(row, 40)),
               y);
       if (row.size() != columns)
-        return fault(fmt::format("row {} of layer {} has {} cells and row 0 of layer 0 has {}: write as many "
-                                 "in each; '.' is an empty cell",
-                                 z, y, row.size(), columns),
-                     y);
+        return fault(
+            fmt::format("row {} of layer {} is {} long and row 0 of layer 0 is {}: write as many cells "
+                        "in each; '.' is an empty one",
+                        z, y, row.size(), columns),
+            y);
     }
   }
   for (const std::size_t along : {columns, layers.size(), rows})

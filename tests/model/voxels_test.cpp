@@ -271,7 +271,7 @@ TEST(Voxels, SayWhatIsWrongWithThem) {
       {{{""}}, {}, "layers", "the body is empty"},
       {{{"..0 "}}, {}, "layers", "the body is empty: none of its cells is full"},
       {{{"11", "11"}, {"11"}}, {}, "layers", "layer 1 has 1 rows and layer 0 has 2"},
-      {{{"11", "1"}}, {}, "layers", "row 1 of layer 0 has 1 cells and row 0 of layer 0 has 2"},
+      {{{"11", "1"}}, {}, "layers", "row 1 of layer 0 is 1 long and row 0 of layer 0 is 2"},
       {{{"1\xc3\xa9"}}, {}, "layers", "letters, digits and other signs of ASCII"},
       {{{std::string(5000, '1')}}, {}, "layers", "5000 cells along an axis; allowed: 4095"},
       {{{"1x"}},
