@@ -2,7 +2,7 @@
 // Implicit Euler as a textbook has it: the matrix of each linear system assembled, and solved by Eigen's
 // conjugate gradients with its diagonal preconditioner. Newton's method around them, its tolerance and
 // forcing terms are Aspic's own, so that only the linear algebra differs. For free bodies: no terrain, no
-// pins, no pull.
+// pins, no pull, no other body.
 #include <Eigen/SparseCore>
 
 #include "cpu_reference/implicit_euler.h"
@@ -21,6 +21,8 @@ class AssembledSystem {
   reference::Trial<float> fall();
   reference::Trial<float> try_step(float lambda, bool onwards);
   static bool interrupted() { return false; }
+  static bool touches() { return false; }
+  reference::Trial<float> touch_again(bool) { return evaluate(); }
 
   /// A·δ = r to ‖r‖ ≤ η·‖r₀‖.
   void solve(float forcing, std::uint32_t most, std::uint32_t& iterations);

@@ -86,7 +86,7 @@ void count_items(State& state, const char* name, std::size_t per_iteration) {
 void lattice_forces(State& state, std::int64_t target, int n, Arithmetic arithmetic) {
   Body cube(cube_settings(n));
   const parallel::Lattice lattice(cube.model, cube.model.bodies[0]);
-  parallel::Sweep sweep(lattice.planes());
+  parallel::Sweep sweep(lattice.plane_size(), lattice.row_size());
   parallel::ForceInput input = cube.input();
   input.arithmetic = arithmetic;
   const Only only(target);
