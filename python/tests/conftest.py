@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import zlib
 from collections.abc import Callable, Iterator
@@ -17,6 +18,8 @@ import pytest
 
 root = pathlib.Path(__file__).resolve().parents[2]
 backends = ("reference", "cpu", "gpu")
+# A shell has what it starts in the background ignore Ctrl-C, and Python leaves it at that.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 small: dict[str, Any] = {"cube[0].particles-per-edge": 4, "cube[0].position": [0, 2.2, 0]}
 
 
