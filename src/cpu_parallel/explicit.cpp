@@ -146,7 +146,8 @@ bool ExplicitSteps::all_apart() {
 
 bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
   if (!known_) look_at(start);
-  const bool may_touch = bodies_ && !all_apart() && bodies_->begin_step(dynamics_.step(), view(start));
+  const bool may_touch =
+      bodies_ && !all_apart() && bodies_->begin_step(dynamics_.step(), view(start), on_workers());
   const double h = model_->simulation.timestep;
   const std::size_t stages = method_.stages.size();
   const Particles* at = &start;
@@ -167,9 +168,7 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
                             s + 1 == stages,
                             method_.drift};
     lengths_.set(dynamics_, s == 0 ? 0.0 : method_.stages[s - 1].advance);
-    touching_ = may_touch && bodies_->find(view(*at), [&](std::size_t count, const auto& task) {
-      workers_.run(count, task);
-    });
+    touching_ = may_touch && bodies_->find(view(*at), on_workers());
     if (touching_) touched_.resize(bodies_->particles().size());
     workers_.run(tasks_.size(), [&](std::size_t n) {
       if (!dynamics_.interrupted()) run(tasks_[n], move);
@@ -297,7 +296,7 @@ void ExplicitSteps::move_rest(const StageMove& stage, Range range, const Forces&
 /// Pushes and friction of bodies, then what comes after them for the particles they touch.
 void ExplicitSteps::touch(const StageMove& stage) {
   bodies_->act(
-      view(*stage.start), [&](std::uint32_t p) { return inverse_mass_[p]; }, touched_);
+      view(*stage.start), [&](std::uint32_t p) { return inverse_mass_[p]; }, touched_, on_workers());
   workers_.run(tasks_.size(), [&](std::size_t n) {
     move_touched(tasks_[n], stage);
     end(tasks_[n], stage);

@@ -49,6 +49,10 @@ class ExplicitSteps final : public Steps {
   void respond(Task& task, const StageMove& stage);
   void find_near(Task& task, const VectorArray& x) const;
   bool all_apart();
+  /// run() of BodyContact.
+  auto on_workers() {
+    return [this](std::size_t count, const auto& task) { workers_.run(count, task); };
+  }
   void touch(const StageMove& stage);
   void move_touched(Task& task, const StageMove& stage);
   std::span<const std::uint32_t> touched_in(Range range) const;

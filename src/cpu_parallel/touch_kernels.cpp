@@ -1,3 +1,5 @@
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -306,22 +308,32 @@ void Touch(const TouchTables<float>& from, TouchBatch<float>& batch) {
     const std::uint32_t* lists[lanes];
     for (std::size_t lane = 0; lane < lanes; ++lane)
       lists[lane] = from.list + static_cast<std::size_t>(batch.encounter[n + lane]) * from.list_size;
+    for (std::size_t next = n + lanes; next < std::min(n + 2 * lanes, batch.count); ++next) {
+      const std::uint32_t* const list =
+          from.list + static_cast<std::size_t>(batch.encounter[next]) * from.list_size;
+      for (std::int32_t j = 0; j < batch.listed[next]; ++j) hwy::Prefetch(&from.faces[list[j]]);
+    }
     Listed all;
-    Float least = hn::Set(tag, std::numeric_limits<float>::infinity());
+    // All that is read for the same lanes comes before what is computed of it: reads wait for each other.
+    Faces at[reference::most_listed];
     for (std::size_t j = 0; j < count; ++j) {
       alignas(64) std::int32_t t[lanes];
       for (std::size_t lane = 0; lane < lanes; ++lane)
         t[lane] = static_cast<std::int32_t>(
             lists[lane][j < static_cast<std::size_t>(batch.listed[n + lane]) ? j : 0]);
-      const Faces faces = faces_at(from.faces, t);
+      at[j] = faces_at(from.faces, t);
+      all.triangle[j] = hn::Load(index_tag, t);
+      all.side[j] = at[j].side;
+    }
+    Float least = hn::Set(tag, std::numeric_limits<float>::infinity());
+    for (std::size_t j = 0; j < count; ++j) {
+      const Faces& faces = at[j];
       Sight& seen = all.seen[j];
       const Vector g = look(P, vectors(from.x, faces.corner[0]), vectors(from.x, faces.corner[1]),
                             vectors(from.x, faces.corner[2]), seen);
       const Mask there =
           hn::RebindMask(tag, hn::Gt(listed, hn::Set(index_tag, static_cast<std::int32_t>(j))));
       const Mask counts = both(both(there, real(g)), hn::Or(either, hn::Lt(dot3(N_P, g), zero)));
-      all.triangle[j] = hn::Load(index_tag, t);
-      all.side[j] = faces.side;
       all.matters[j] = counts;
       least = hn::IfThenElse(both(counts, hn::Lt(seen.L, least)), seen.L, least);
     }

@@ -151,10 +151,8 @@ void BodyContact<T>::ease_apart(const Model& model, bool ahead) {
 }
 
 template <class T>
-bool BodyContact<T>::begin_step(std::uint64_t step, const Particles& start) {
+bool BodyContact<T>::begin_measured(std::uint64_t step, const Particles& start) {
   time_ = static_cast<T>(static_cast<double>(step) * timestep_);
-  lay_out(start);
-  ways_.measure(near_, start, x_);
   if (!ways_.hold(near_)) {
     // Of what was not near, nothing has come as near as short lists reach if it has come little nearer than
     // the lists of what is near allow.
@@ -185,7 +183,7 @@ void BodyContact<T>::list_used(const Particles& at) {
   std::ranges::sort(met_, {}, &SurfaceParticle::point);
   const auto same = [](const SurfaceParticle& a, const SurfaceParticle& b) { return a.point == b.point; };
   met_.erase(std::unique(met_.begin(), met_.end(), same), met_.end());
-  lay_out(at);
+  lay_out(at, one_by_one);
   own_.clear();
   asked_.clear();
   for (const Encounter& near : near_.encounters()) {
@@ -246,15 +244,6 @@ void BodyContact<T>::find_in(std::size_t number) {
     }
   }
   if (in_turn) in_turn_.store(number + 1, std::memory_order_release);
-}
-
-/// Places and velocities of all that may touch, one after the other.
-template <class T>
-void BodyContact<T>::lay_out(const Particles& at) {
-  for (const auto& [particle, point] : met_) {
-    x_[point] = row_of<T>(at.position(particle));
-    v_[point] = row_of<T>(at.velocity(particle));
-  }
 }
 
 /// The encounters of a range whose short lists hold and name triangles.
@@ -318,14 +307,12 @@ Vector<T> BodyContact<T>::normal_of(const Looker& p) const {
 }
 
 template <class T>
-bool BodyContact<T>::gather() {
+void BodyContact<T>::gather() {
   const std::size_t pieces = pieces_of(near_.encounters().size());
   for (std::size_t n = in_turn_; n < pieces; ++n)
     touches_.insert(touches_.end(), pieces_[n].touches.begin(), pieces_[n].touches.end());
   for (std::size_t n = 0; n < pieces; ++n)
     for (const std::size_t listed : pieces_[n].listed) want(listed);
-  name_particles();
-  return !touches_.empty();
 }
 
 template <class T>
@@ -562,19 +549,15 @@ void BodyContact<T>::name_particles() {
       particles_.push_back(surfaces_.points[p].carrier[0]);
     }
   }
-  for (Touch<T>& touch : touches_)
-    for (std::uint32_t& place : touch.place) place = place_of_[place];
 }
 
 template <class T>
-void BodyContact<T>::find_friction() {
+void BodyContact<T>::find_friction(Touch<T>& touch) const {
+  if (!(touch.push > T(0))) return;
   const auto part = [&](std::uint32_t place) { return share_[place]; };
   const auto v1 = [&](std::uint32_t place) { return v1_[place]; };
-  for (Touch<T>& touch : touches_) {
-    if (!(touch.push > T(0))) continue;
-    const T W = (over_carriers<T>(touch, part) + over_corners<T>(touch, part)) / touch.push;
-    touch.rub = friction_of<T>(touch, W, over_carriers<T>(touch, v1), over_corners<T>(touch, v1), h_);
-  }
+  const T W = (over_carriers<T>(touch, part) + over_corners<T>(touch, part)) / touch.push;
+  touch.rub = friction_of<T>(touch, W, over_carriers<T>(touch, v1), over_corners<T>(touch, v1), h_);
 }
 
 template <class T>

@@ -49,6 +49,11 @@ class TouchTable {
   std::vector<TouchConstants<T>> pairs_;  // by kind, of a body with itself; then by both kinds
 };
 
+/// Tasks one after the other.
+inline constexpr auto one_by_one = [](std::size_t count, const auto& task) {
+  for (std::size_t n = 0; n < count; ++n) task(n);
+};
+
 template <class T>
 class BodyContact {
  public:
@@ -70,7 +75,14 @@ class BodyContact {
 
   /// A step from the state of this number begins here, where the particles stay until it ends. Returns
   /// whether anything may touch in it.
-  bool begin_step(std::uint64_t step, const Particles& start);
+  bool begin_step(std::uint64_t step, const Particles& start) { return begin_step(step, start, one_by_one); }
+  /// The same on many threads: run(count, task) calls task(n) for n below count, in any order.
+  template <class Run>
+  bool begin_step(std::uint64_t step, const Particles& start, const Run& run) {
+    lay_out(start, run);
+    ways_.measure(near_, start, x_, run);
+    return begin_measured(step, start);
+  }
 
   /// The candidates of this step: calls take(point, triangle), ascending by point, body and triangle.
   template <class Take>
@@ -82,15 +94,11 @@ class BodyContact {
 
   /// Finds the contacts at a place of the step, for forces there and those below. Returns whether there is
   /// one.
-  bool find(const Particles& at) {
-    return find(at, [](std::size_t count, const auto& task) {
-      for (std::size_t n = 0; n < count; ++n) task(n);
-    });
-  }
-  /// The same on many threads: run(count, task) calls task(n) for n below count, in any order.
+  bool find(const Particles& at) { return find(at, one_by_one); }
+  /// The same on many threads, as begin_step().
   template <class Run>
   bool find(const Particles& at, const Run& run) {
-    if (!std::exchange(laid_out_, false) || at.x != start_->x || at.v != start_->v) lay_out(at);
+    if (!std::exchange(laid_out_, false) || at.x != start_->x || at.v != start_->v) lay_out(at, run);
     short_.follow(x_, run);
     normals_.make(x_, run);
     const std::size_t pieces = pieces_of(near_.encounters().size());
@@ -98,7 +106,10 @@ class BodyContact {
     touches_.clear();
     in_turn_ = 0;
     run(pieces, [&](std::size_t n) { find_in(n); });
-    return gather();
+    gather();
+    name_particles();
+    run_pieces(touches_.size(), run, [&](std::size_t n) { place_touch(touches_[n]); });
+    return !touches_.empty();
   }
   /// How what is seen is computed, to the same bits as look_one_by_one(); and what points touch whose short
   /// lists hold, which without the second are looked at one by one.
@@ -116,15 +127,21 @@ class BodyContact {
 
   /// Adds pushes and friction to the forces [N] of particles(), which gravity, springs and pulls have made.
   /// `start`: of the step; inverse_mass(particle) [1/kg].
+  template <class InverseMass, class Run>
+  void act(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
+           const Run& run) {
+    push(start, inverse_mass, f, run);
+    if (rubs_) spread<T>(touches_, f, [](const Touch<T>& touch) { return touch.rub; });
+  }
   template <class InverseMass>
   void act(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f) {
-    push(start, inverse_mass, f);
-    if (rubs_) spread<T>(touches_, f, [](const Touch<T>& touch) { return touch.rub; });
+    act(start, inverse_mass, f, one_by_one);
   }
 
   /// The same with pushes alone; friction is found, but not added.
-  template <class InverseMass>
-  void push(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f) {
+  template <class InverseMass, class Run>
+  void push(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
+            const Run& run) {
     share_.assign(particles_.size(), T(0));
     spread_pushes<T>(touches_, f, share_);
     if (!rubs_) return;
@@ -134,7 +151,7 @@ class BodyContact {
       v1_[n] = start.velocity(particles_[n]) + (h_ * w) * f[n];
       share_[n] = w * share_[n];
     }
-    find_friction();
+    run_pieces(touches_.size(), run, [&](std::size_t n) { find_friction(touches_[n]); });
   }
   /// Bodies whose boxes are farther apart than this do not touch [m].
   double most_margin() const { return near_.most_margin(); }
@@ -166,13 +183,30 @@ class BodyContact {
   };
   static constexpr std::size_t piece_size = batch_room;
   static std::size_t pieces_of(std::size_t count) { return (count + piece_size - 1) / piece_size; }
+  /// Calls use(n) for n below `count`.
+  template <class Run, class Use>
+  static void run_pieces(std::size_t count, const Run& run, const Use& use) {
+    constexpr std::size_t size = 512;
+    run((count + size - 1) / size, [&](std::size_t piece) {
+      for (std::size_t n = piece * size; n < std::min(count, (piece + 1) * size); ++n) use(n);
+    });
+  }
+  bool begin_measured(std::uint64_t step, const Particles& start);
   void list_used(const Particles& at);
   void want(std::size_t encounter);
   void find_in(std::size_t piece);
-  void lay_out(const Particles& at);
+  /// Places and velocities of all that may touch, one after the other.
+  template <class Run>
+  void lay_out(const Particles& at, const Run& run) {
+    run_pieces(met_.size(), run, [&](std::size_t n) {
+      const auto& [particle, point] = met_[n];
+      x_[point] = row_of<T>(at.position(particle));
+      v_[point] = row_of<T>(at.velocity(particle));
+    });
+  }
   void ask(std::size_t first, std::size_t end, TouchBatch<T>& batch) const;
   TouchTables<T> tables() const;
-  bool gather();
+  void gather();
   FacesInSpace<T> faces() const { return {surfaces_.faces, x_}; }
   T pad(const TouchConstants<T>& pair) const;
   T enough(std::optional<T> least, const TouchConstants<T>& pair) const;
@@ -188,7 +222,11 @@ class BodyContact {
   void add(std::size_t encounter, const TouchBatch<T>& batch, std::size_t place, Piece& piece) const;
   Touch<T>& begin_touch(std::size_t encounter, std::uint32_t triangle, T b, T c, Piece& piece) const;
   void name_particles();
-  void find_friction();
+  /// Places of what a contact names, where points stood in for them.
+  void place_touch(Touch<T>& touch) const {
+    for (std::uint32_t& place : touch.place) place = place_of_[place];
+  }
+  void find_friction(Touch<T>& touch) const;
   std::uint32_t body_of(std::uint32_t point) const;
   std::uint32_t body_of_triangle(std::uint32_t triangle) const;
   T back(const Eased& eased, const TouchConstants<T>& pair) const;

@@ -57,11 +57,6 @@ Vector<T> product_of(const Touch<T>& touch, const TouchAnswer<T>& answer, const 
   return (answer.along * along) * touch.n + answer.across * rest;
 }
 
-/// Tasks one after the other.
-inline constexpr auto one_by_one = [](std::size_t count, const auto& task) {
-  for (std::size_t n = 0; n < count; ++n) task(n);
-};
-
 template <class T>
 class TouchAhead {
  public:
@@ -83,7 +78,7 @@ class TouchAhead {
              const Run& run) {
     contact_.set_at_end(false);
     answers_.clear();
-    return contact_.begin_step(step, start) && search(start, start, force, inverse_mass, run);
+    return contact_.begin_step(step, start, run) && search(start, start, force, inverse_mass, run);
   }
   /// The same where the step may end, from which its second solve goes on.
   template <class Force, class InverseMass, class Run>
@@ -160,7 +155,7 @@ class TouchAhead {
     if (!near) return false;
     std::vector<Vector<T>> f;
     for (const std::uint32_t p : contact_.particles()) f.push_back(force(p));
-    contact_.push(start, inverse_mass, f);
+    contact_.push(start, inverse_mass, f, run);
     for (std::size_t n = 0; n < answers_.size(); ++n)
       answers_[n].cone = contact_.touches()[n].mu * contact_.touches()[n].push;
     return true;

@@ -26,6 +26,15 @@ class TouchWays {
   /// `surfaces` must outlive it.
   explicit TouchWays(const TouchSurfaces& surfaces) : surfaces_(surfaces) {
     for (const TouchPoint& point : surfaces.points) particle_.push_back(point.carrier[0]);
+    for (std::uint32_t n = 0; n < surfaces.bodies.size(); ++n) {
+      const TouchBody& body = surfaces.bodies[n];
+      for (std::uint32_t p = 0; p < body.surface_particles; p += part_size)
+        parts_.push_back({n,
+                          body.first_point + p,
+                          body.first_point + std::min(p + part_size, body.surface_particles),
+                          {},
+                          T(0)});
+    }
   }
 
   /// Lists have been made for particles at these places.
@@ -35,37 +44,29 @@ class TouchWays {
       for (std::uint32_t p = body.first_point; p < body.first_point + body.surface_particles; ++p)
         from_[p] = place(p, at);
   }
-  /// Particles are at these places now; `x`: those that meetings name, by point.
-  void measure(const NearTriangles& near, const Particles& at, std::span<const Row<T>> x) {
+  /// Particles are at these places now; `x`: those that meetings name, by point; run(count, task) as in
+  /// BodyContact::find().
+  template <class Run>
+  void measure(const NearTriangles& near, const Particles& at, std::span<const Row<T>> x, const Run& run) {
     if (from_.empty()) return;
-    far_ = apart_ = T(0);
-    bodies_.clear();
-    Array sum = Array::Zero();
-    for (const TouchBody& body : surfaces_.bodies) {
-      Body& way = bodies_.emplace_back();
-      for (std::uint32_t p = body.first_point; p < body.first_point + body.surface_particles; ++p) {
-        const Array now = place(p, at), gone = now - from_[p];
-        way.gone.add(gone);
-        way.around.add(now);
-        sum += gone;
-      }
-      far_ = std::max(far_, norm(way.gone.low.abs().max(way.gone.high.abs())));
+    run_parts(parts_.size(), run, [&](std::size_t n) { measure(parts_[n], at); });
+    const std::span<const Meeting> meetings = near.meetings();
+    apart_of_.resize(meetings.size());
+    run_parts(meetings.size(), run, [&](std::size_t n) { apart_of_[n] = apart(meetings[n], near, x); });
+    far_ = T(0);
+    apart_ = apart_of_.empty() ? T(0) : std::ranges::max(apart_of_);
+    bodies_.assign(surfaces_.bodies.size(), {});
+    T sum = T(0);
+    for (const Part& part : parts_) {
+      Body& body = bodies_[part.body];
+      body.gone.add(part.way.gone);
+      body.around.add(part.way.around);
+      sum += part.sum;
     }
+    for (const Body& body : bodies_)
+      far_ = std::max(far_, norm(body.gone.low.abs().max(body.gone.high.abs())));
     // What is no number has gone anywhere.
-    if (!std::isfinite(sum.sum())) far_ = apart_ = std::numeric_limits<T>::infinity();
-    for (const Meeting& meeting : near.meetings()) {
-      const auto gone = [&](std::uint32_t first, std::uint32_t end) {
-        Box box;
-        for (std::uint32_t n = first; n < end; ++n) {
-          const std::uint32_t p = near.met()[n];
-          box.add(Eigen::Map<const Array>(x[p].data()) - from_[p]);
-        }
-        return box;
-      };
-      const Box second = gone(meeting.second, meeting.end);
-      const Box first = meeting.second == meeting.first ? second : gone(meeting.first, meeting.second);
-      apart_ = std::max(apart_, first.apart(second));
-    }
+    if (!std::isfinite(sum)) far_ = apart_ = std::numeric_limits<T>::infinity();
   }
   /// Whether nothing that the lists leave out has come near, or nearer than that by no more than `over` [m].
   bool hold(const NearTriangles& near, double over = 0.0) const {
@@ -87,19 +88,27 @@ class TouchWays {
 
   std::uint64_t bytes() const {
     return from_.capacity() * sizeof(from_[0]) + particle_.capacity() * sizeof(particle_[0]) +
-           bodies_.capacity() * sizeof(bodies_[0]);
+           bodies_.capacity() * sizeof(bodies_[0]) + parts_.capacity() * sizeof(parts_[0]) +
+           apart_of_.capacity() * sizeof(apart_of_[0]);
   }
 
  private:
   using Array = Eigen::Array<T, 4, 1>;  // x, y, z, 0: one load
   /// Bodies that are compared pair by pair, at most.
   static constexpr std::size_t most_bodies = 64;
+  /// Particles that are measured together, at most, and tasks.
+  static constexpr std::uint32_t part_size = 1024;
+  static constexpr std::size_t most_tasks = 64;
   struct Box {
     Array low = Array::Constant(std::numeric_limits<T>::infinity());
     Array high = Array::Constant(-std::numeric_limits<T>::infinity());
     void add(const Array& value) {
       low = low.min(value);
       high = high.max(value);
+    }
+    void add(const Box& other) {
+      low = low.min(other.low);
+      high = high.max(other.high);
     }
     /// How far anything of this and of the other is from each other, at most, in one direction.
     T apart(const Box& other) const {
@@ -112,6 +121,46 @@ class TouchWays {
   struct Body {
     Box gone, around;
   };
+  /// Particles of one body.
+  struct Part {
+    std::uint32_t body, first, end;  // of points
+    Body way;
+    T sum;  // of what they have gone; a number if these are
+  };
+
+  /// Calls use(n) for n below `count`.
+  template <class Run, class Use>
+  static void run_parts(std::size_t count, const Run& run, const Use& use) {
+    const std::size_t size = (count + most_tasks - 1) / most_tasks;
+    if (count == 0) return;
+    run((count + size - 1) / size, [&](std::size_t task) {
+      for (std::size_t n = task * size; n < std::min(count, (task + 1) * size); ++n) use(n);
+    });
+  }
+  void measure(Part& part, const Particles& at) const {
+    Body way;
+    Array sum = Array::Zero();
+    for (std::uint32_t p = part.first; p < part.end; ++p) {
+      const Array now = place(p, at), gone = now - from_[p];
+      way.gone.add(gone);
+      way.around.add(now);
+      sum += gone;
+    }
+    part.way = way;
+    part.sum = sum.sum();
+  }
+  T apart(const Meeting& meeting, const NearTriangles& near, std::span<const Row<T>> x) const {
+    const auto gone = [&](std::uint32_t first, std::uint32_t end) {
+      Box box;
+      for (std::uint32_t n = first; n < end; ++n) {
+        const std::uint32_t p = near.met()[n];
+        box.add(Eigen::Map<const Array>(x[p].data()) - from_[p]);
+      }
+      return box;
+    };
+    const Box second = gone(meeting.second, meeting.end);
+    return (meeting.second == meeting.first ? second : gone(meeting.first, meeting.second)).apart(second);
+  }
   static T norm(const Array& a) { return std::sqrt(a.square().sum()); }
   Array place(std::uint32_t point, const Particles& at) const {
     const std::size_t n = particle_[point] * at.stride;
@@ -121,6 +170,8 @@ class TouchWays {
   const TouchSurfaces& surfaces_;
   std::vector<std::uint32_t> particle_;  // by point, which it is or which carries it
   std::vector<Array> from_;              // where particles were when the lists were made, by point
+  std::vector<Part> parts_;
+  std::vector<T> apart_of_;  // by meeting
   std::vector<Body> bodies_;
   T far_ = T(0), apart_ = T(0);  // that any has gone, and those of a meeting against each other [m]
 };
