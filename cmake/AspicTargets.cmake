@@ -152,10 +152,14 @@ function(aspic_runs target)
   endif()
 endfunction()
 
-# aspic_computes(NAME): a target that computes at length, optimised as far as the compiler can, without checks inside its loops.
+# aspic_computes(NAME [LEVEL]): a target that computes at length, optimised as far as the compiler can or in a Release build to this level,
+# without checks inside its loops.
 # Below -O2 clang inlines nothing of Eigen and Highway: minutes become hours under the sanitizers.
 function(aspic_computes name)
   set_target_properties(${name} PROPERTIES ASPIC_COMPUTES ON DISABLE_PRECOMPILE_HEADERS ON)
+  if(ASPIC_LEVELS AND ARGN)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:${ARGN}>)
+  endif()
   if(ASPIC_SANITIZE)
     target_compile_options(${name} PRIVATE -O2)
   endif()
