@@ -13,6 +13,7 @@
 
 #include "cpu_reference/ball_particles.h"
 #include "cpu_reference/near_triangles.h"
+#include "cpu_reference/pieces.h"
 #include "cpu_reference/touch_batch.h"
 #include "cpu_reference/touch_geometry.h"
 #include "cpu_reference/touch_normals.h"
@@ -47,11 +48,6 @@ class TouchTable {
   std::vector<std::uint32_t> kind_;       // by body
   std::uint32_t kinds_ = 0;               // so many
   std::vector<TouchConstants<T>> pairs_;  // by kind, of a body with itself; then by both kinds
-};
-
-/// Tasks one after the other.
-inline constexpr auto one_by_one = [](std::size_t count, const auto& task) {
-  for (std::size_t n = 0; n < count; ++n) task(n);
 };
 
 template <class T>
@@ -108,7 +104,7 @@ class BodyContact {
     run(pieces, [&](std::size_t n) { find_in(n); });
     gather();
     name_particles();
-    run_pieces(touches_.size(), run, [&](std::size_t n) { place_touch(touches_[n]); });
+    run_pieces(touches_.size(), task_size, run, [&](std::size_t n) { place_touch(touches_[n]); });
     return !touches_.empty();
   }
   /// How what is seen is computed, to the same bits as look_one_by_one(); and what points touch whose short
@@ -151,7 +147,7 @@ class BodyContact {
       v1_[n] = start.velocity(particles_[n]) + (h_ * w) * f[n];
       share_[n] = w * share_[n];
     }
-    run_pieces(touches_.size(), run, [&](std::size_t n) { find_friction(touches_[n]); });
+    run_pieces(touches_.size(), task_size, run, [&](std::size_t n) { find_friction(touches_[n]); });
   }
   /// Bodies whose boxes are farther apart than this do not touch [m].
   double most_margin() const { return near_.most_margin(); }
@@ -183,14 +179,8 @@ class BodyContact {
   };
   static constexpr std::size_t piece_size = batch_room;
   static std::size_t pieces_of(std::size_t count) { return (count + piece_size - 1) / piece_size; }
-  /// Calls use(n) for n below `count`.
-  template <class Run, class Use>
-  static void run_pieces(std::size_t count, const Run& run, const Use& use) {
-    constexpr std::size_t size = 512;
-    run((count + size - 1) / size, [&](std::size_t piece) {
-      for (std::size_t n = piece * size; n < std::min(count, (piece + 1) * size); ++n) use(n);
-    });
-  }
+  /// Particles, and contacts, of a task.
+  static constexpr std::size_t task_size = 512;
   bool begin_measured(std::uint64_t step, const Particles& start);
   void list_used(const Particles& at);
   void want(std::size_t encounter);
@@ -198,7 +188,7 @@ class BodyContact {
   /// Places and velocities of all that may touch, one after the other.
   template <class Run>
   void lay_out(const Particles& at, const Run& run) {
-    run_pieces(met_.size(), run, [&](std::size_t n) {
+    run_pieces(met_.size(), task_size, run, [&](std::size_t n) {
       const auto& [particle, point] = met_[n];
       x_[point] = row_of<T>(at.position(particle));
       v_[point] = row_of<T>(at.velocity(particle));

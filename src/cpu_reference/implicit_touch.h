@@ -10,6 +10,7 @@
 
 #include "cpu_reference/body_contact.h"
 #include "cpu_reference/diagonal_block.h"
+#include "cpu_reference/pieces.h"
 
 namespace aspic::reference {
 

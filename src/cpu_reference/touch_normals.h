@@ -1,12 +1,12 @@
 #pragma once
 // Normals of particles of surfaces where forces are evaluated: those that are wanted are made ahead, the
 // others where something asks for them.
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "cpu_reference/number_set.h"
+#include "cpu_reference/pieces.h"
 #include "cpu_reference/touch_sights.h"
 #include "model/touch_surface.h"
 
@@ -74,11 +74,7 @@ class TouchNormals {
  private:
   template <class Run, class Make>
   static void for_pieces(const std::vector<std::uint32_t>& all, const Run& run, const Make& make) {
-    constexpr std::size_t size = 512;
-    run((all.size() + size - 1) / size, [&](std::size_t piece) {
-      const std::size_t end = std::min(all.size(), (piece + 1) * size);
-      for (std::size_t n = piece * size; n < end; ++n) make(all[n]);
-    });
+    run_pieces(all.size(), 512, run, [&](std::size_t n) { make(all[n]); });
   }
   /// Rows as vectors of four, which compilers keep in one register.
   using Four = Eigen::Array<T, 4, 1>;

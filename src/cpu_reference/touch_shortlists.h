@@ -17,6 +17,7 @@
 #include "aspic/vec.h"
 #include "cpu_reference/near_triangles.h"
 #include "cpu_reference/number_set.h"
+#include "cpu_reference/pieces.h"
 #include "cpu_reference/touch_batch.h"
 #include "model/touch_surface.h"
 
@@ -66,15 +67,12 @@ class TouchShortlists {
   /// Particles are at these places now; run(count, task) as in BodyContact::find().
   template <class Run>
   void follow(std::span<const Row<T>> x, const Run& run) {
-    const std::size_t pieces = (zones_.size() + zones_in_piece - 1) / zones_in_piece;
-    run(pieces, [&](std::size_t n) {
-      for (std::size_t z = n * zones_in_piece; z < std::min(zones_.size(), (n + 1) * zones_in_piece); ++z) {
-        Zone& zone = zones_[z];
-        zone.way = way_of(zone, x);
-        // Lists that are made from here on last longest if the way begins here.
-        if (8 * zone.lost > zone.encounters_end - zone.encounters_first || !(zone.way < nowhere))
-          renew(zone, x);
-      }
+    run_pieces(zones_.size(), zones_in_piece, run, [&](std::size_t z) {
+      Zone& zone = zones_[z];
+      zone.way = way_of(zone, x);
+      // Lists that are made from here on last longest if the way begins here.
+      if (8 * zone.lost > zone.encounters_end - zone.encounters_first || !(zone.way < nowhere))
+        renew(zone, x);
     });
   }
 

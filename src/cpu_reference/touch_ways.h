@@ -13,6 +13,7 @@
 
 #include "cpu_reference/ball_particles.h"
 #include "cpu_reference/near_triangles.h"
+#include "cpu_reference/pieces.h"
 #include "cpu_reference/touch_batch.h"
 #include "model/touch_surface.h"
 
@@ -49,10 +50,11 @@ class TouchWays {
   template <class Run>
   void measure(const NearTriangles& near, const Particles& at, std::span<const Row<T>> x, const Run& run) {
     if (from_.empty()) return;
-    run_parts(parts_.size(), run, [&](std::size_t n) { measure(parts_[n], at); });
+    run_pieces(parts_.size(), task_size(parts_.size()), run, [&](std::size_t n) { measure(parts_[n], at); });
     const std::span<const Meeting> meetings = near.meetings();
     apart_of_.resize(meetings.size());
-    run_parts(meetings.size(), run, [&](std::size_t n) { apart_of_[n] = apart(meetings[n], near, x); });
+    run_pieces(meetings.size(), task_size(meetings.size()), run,
+               [&](std::size_t n) { apart_of_[n] = apart(meetings[n], near, x); });
     far_ = T(0);
     apart_ = apart_of_.empty() ? T(0) : std::ranges::max(apart_of_);
     bodies_.assign(surfaces_.bodies.size(), {});
@@ -128,15 +130,8 @@ class TouchWays {
     T sum;  // of what they have gone; a number if these are
   };
 
-  /// Calls use(n) for n below `count`.
-  template <class Run, class Use>
-  static void run_parts(std::size_t count, const Run& run, const Use& use) {
-    const std::size_t size = (count + most_tasks - 1) / most_tasks;
-    if (count == 0) return;
-    run((count + size - 1) / size, [&](std::size_t task) {
-      for (std::size_t n = task * size; n < std::min(count, (task + 1) * size); ++n) use(n);
-    });
-  }
+  /// Of so many, those of a task.
+  static std::size_t task_size(std::size_t count) { return count / most_tasks + 1; }
   void measure(Part& part, const Particles& at) const {
     Body way;
     Array sum = Array::Zero();
