@@ -14,14 +14,14 @@
 namespace aspic::python {
 namespace {
 
-using Numbers = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using Vectors = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
 std::vector<Vec3>& field_of(State& state, std::size_t field) {
   if (field >= state_fields.size()) throw nb::index_error("no such field");
   return state.*state_fields[field].vectors;
 }
 
-Array<double> read(State& state, std::size_t field) {
+Array<double> read_field(State& state, std::size_t field) {
   const std::vector<Vec3>& vectors = field_of(state, field);
   std::vector<double> numbers;
   numbers.reserve(3 * vectors.size());
@@ -29,7 +29,7 @@ Array<double> read(State& state, std::size_t field) {
   return as_array(std::move(numbers), {vectors.size(), 3});
 }
 
-void write(State& state, std::size_t field, const Numbers& numbers) {
+void write_field(State& state, std::size_t field, const Vectors& numbers) {
   std::vector<Vec3> vectors;
   vectors.reserve(numbers.shape(0));
   for (std::size_t i = 0; i < numbers.shape(0); ++i)
@@ -38,14 +38,14 @@ void write(State& state, std::size_t field, const Numbers& numbers) {
 }
 
 /// Quantity, largest difference and where, largest distance in ULP and where.
-using Row = std::tuple<std::string, double, std::uint32_t, std::uint64_t, std::uint32_t>;
+using QuantityRow = std::tuple<std::string, double, std::uint32_t, std::uint64_t, std::uint32_t>;
 
-std::vector<Row> compare(const State& a, const State& b) {
+std::vector<QuantityRow> compare(const State& a, const State& b) {
   const StateDifference difference = take(compare_states(a, b));
   const QuantityDifference* const parts[] = {&difference.position, &difference.velocity,
                                              &difference.ball_position, &difference.ball_velocity,
                                              &difference.ball_angular_velocity};
-  std::vector<Row> rows;
+  std::vector<QuantityRow> rows;
   for (std::size_t f = 0; f < state_fields.size(); ++f) {
     const QuantityDifference& q = *parts[f];
     rows.emplace_back(state_fields[f].name, q.absolute, q.absolute_index, q.ulp, q.ulp_index);
@@ -68,8 +68,8 @@ void bind_state(nb::module_& module) {
           nb::arg("step"), nb::arg("doubles"))
       .def(
           "copy", [](const State& state) { return state; }, "Another one.")
-      .def("read", &read, nb::arg("field"), "A field, (n, 3), float64.")
-      .def("write", &write, nb::arg("field"), nb::arg("numbers"), "Replaces a field.")
+      .def("read", &read_field, nb::arg("field"), "A field, (n, 3), float64.")
+      .def("write", &write_field, nb::arg("field"), nb::arg("numbers"), "Replaces a field.")
       .def_rw("step", &State::step, "Steps since the start.")
       .def_prop_ro(
           "doubles", [](const State& state) { return state.precision == Precision::double_; },
