@@ -177,6 +177,12 @@ function(aspic_test_program name)
   aspic_precompiled(${name} aspic_test_headers)
 endfunction()
 
+# aspic_busy(NAME): tests that are at work for longer than they take to compile.
+function(aspic_busy name)
+  aspic_level(${name} -O1)
+  set_target_properties(${name} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # which are for another level
+endfunction()
+
 # aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each suite of it a test of ctest's (cmake/AspicSuites.cmake):
 # a process for each case would make a context and compile the shaders each time. EACH_CASE: a process for each case all the
 # same, for cases that take long or want a process of their own. Patterns are those of --gtest_filter: SOFTWARE pattern gives the

@@ -15,7 +15,7 @@
 #include "app/app.h"
 #include "app/window.h"
 #include "model/integrator.h"
-#include "render/image_comparison.h"
+#include "support/image_comparison.h"
 #include "support/temporary_directory.h"
 
 namespace aspic::test {

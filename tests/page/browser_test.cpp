@@ -10,7 +10,7 @@
 
 #include "cli/process.h"
 #include "page/builtin_scenes.h"
-#include "render/image_comparison.h"
+#include "support/image_comparison.h"
 
 namespace aspic {
 namespace {

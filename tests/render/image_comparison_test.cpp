@@ -1,5 +1,5 @@
 // What golden pictures let pass, and what they do not.
-#include "render/image_comparison.h"
+#include "support/image_comparison.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "gpu/pixel_ring.h"
-#include "render/image_comparison.h"
 #include "render/renderer.h"
+#include "support/image_comparison.h"
 
 namespace aspic::test {
 

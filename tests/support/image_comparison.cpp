@@ -1,4 +1,4 @@
-#include "render/image_comparison.h"
+#include "support/image_comparison.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
