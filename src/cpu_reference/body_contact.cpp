@@ -1,7 +1,6 @@
 #include "cpu_reference/body_contact.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <tuple>
 #include <type_traits>
@@ -179,16 +178,16 @@ bool BodyContact<T>::begin_measured(std::uint64_t step, const Particles& start) 
 template <class T>
 void BodyContact<T>::list_used(const Particles& at) {
   met_.clear();
-  for (const std::uint32_t p : near_.met()) met_.push_back({surfaces_.points[p].carrier[0], p});
-  std::ranges::sort(met_, {}, &SurfaceParticle::point);
-  const auto same = [](const SurfaceParticle& a, const SurfaceParticle& b) { return a.point == b.point; };
-  met_.erase(std::unique(met_.begin(), met_.end(), same), met_.end());
+  for (const std::uint32_t p : near_.met()) name(p);
+  for_named([&](std::uint32_t p) { met_.push_back({surfaces_.points[p].carrier[0], p}); });
   lay_out(at, one_by_one);
   own_.clear();
   asked_.clear();
+  std::uint32_t own = 0;  // they ascend
   for (const Encounter& near : near_.encounters()) {
     const TouchPoint& point = surfaces_.points[near.point];
-    own_.push_back(body_of(near.point));
+    while (own + 1 < surfaces_.bodies.size() && surfaces_.bodies[own + 1].first_point <= near.point) ++own;
+    own_.push_back(own);
     asked_.push_back(
         {point.own, {weight_[0][near.point], weight_[1][near.point]}, table_.of(own_.back(), near.body)});
   }
@@ -541,14 +540,11 @@ template <class T>
 void BodyContact<T>::name_particles() {
   particles_.clear();
   for (const Touch<T>& touch : touches_)
-    for (const std::uint32_t p : touch.place) named_[p / 64] |= std::uint64_t{1} << p % 64;
-  for (std::uint32_t n = 0; n < named_.size(); ++n) {
-    for (std::uint64_t bits = std::exchange(named_[n], 0); bits != 0; bits &= bits - 1) {
-      const std::uint32_t p = 64 * n + static_cast<std::uint32_t>(std::countr_zero(bits));
-      place_of_[p] = static_cast<std::uint32_t>(particles_.size());
-      particles_.push_back(surfaces_.points[p].carrier[0]);
-    }
-  }
+    for (const std::uint32_t p : touch.place) name(p);
+  for_named([&](std::uint32_t p) {
+    place_of_[p] = static_cast<std::uint32_t>(particles_.size());
+    particles_.push_back(surfaces_.points[p].carrier[0]);
+  });
 }
 
 template <class T>

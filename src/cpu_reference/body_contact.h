@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -211,6 +212,14 @@ class BodyContact {
   void add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap, Piece& piece) const;
   void add(std::size_t encounter, const TouchBatch<T>& batch, std::size_t place, Piece& piece) const;
   Touch<T>& begin_touch(std::size_t encounter, std::uint32_t triangle, T b, T c, Piece& piece) const;
+  void name(std::uint32_t point) { named_[point / 64] |= std::uint64_t{1} << point % 64; }
+  /// Calls use(point) for those that have been named since, ascending and each once.
+  template <class Use>
+  void for_named(const Use& use) {
+    for (std::uint32_t n = 0; n < named_.size(); ++n)
+      for (std::uint64_t bits = std::exchange(named_[n], 0); bits != 0; bits &= bits - 1)
+        use(64 * n + static_cast<std::uint32_t>(std::countr_zero(bits)));
+  }
   void name_particles();
   /// Places of what a contact names, where points stood in for them.
   void place_touch(Touch<T>& touch) const {

@@ -105,9 +105,15 @@ void Bounds::add(const Vec3& place) {
 }
 
 bool Bounds::holds(const Vec3& place, double margin) const {
-  for (std::size_t c = 0; c < 3; ++c)
-    if (!(component(place, c) >= min[c] - margin && component(place, c) <= max[c] + margin)) return false;
-  return true;
+  // All at once: which comparison fails first is anyone's guess, a processor's too.
+  bool all = true;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double x = component(place, c);
+    const bool above = x >= min[c] - margin, below = x <= max[c] + margin;
+    all &= above;
+    all &= below;
+  }
+  return all;
 }
 
 bool Bounds::meets(const Bounds& other, double margin) const {
@@ -123,7 +129,6 @@ std::size_t TriangleGrid::cell(std::size_t axis, double x) const {
 }
 
 void TriangleGrid::build(std::span<const Bounds> boxes) {
-  boxes_ = boxes;
   centres_ = {};
   half_ = 0.0;
   const auto centre = [](const Bounds& box) {
@@ -154,7 +159,12 @@ void TriangleGrid::build(std::span<const Bounds> boxes) {
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   triangles_.resize(boxes.size());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (std::uint32_t t = 0; t < boxes.size(); ++t) triangles_[next[index(boxes[t])]++] = t;
+  boxes_.resize(boxes.size());
+  for (std::uint32_t t = 0; t < boxes.size(); ++t) {
+    const std::uint32_t place = next[index(boxes[t])]++;
+    triangles_[place] = t;
+    boxes_[place] = boxes[t];
+  }
 }
 
 void TriangleGrid::near(const Vec3& place, double margin, std::vector<std::uint32_t>& found) const {
@@ -169,7 +179,7 @@ void TriangleGrid::near(const Vec3& place, double margin, std::vector<std::uint3
     for (std::size_t j = from[1]; j <= to[1]; ++j) {
       const std::size_t row = (i * cells_[1] + j) * cells_[2];
       for (std::uint32_t n = begin_[row + from[2]]; n < begin_[row + to[2] + 1]; ++n)
-        if (boxes_[triangles_[n]].holds(place, margin)) found.push_back(triangles_[n]);
+        if (boxes_[n].holds(place, margin)) found.push_back(triangles_[n]);
     }
   }
   std::sort(found.begin() + before, found.end());
@@ -345,7 +355,7 @@ std::uint64_t NearTriangles::bytes() const {
   return (rest_.capacity() + built_.capacity()) * sizeof(Vec3) + boxes_.capacity() * sizeof(Bounds) +
          encounters_.capacity() * sizeof(Encounter) +
          (triangles_.capacity() + found_.capacity() + met_.capacity()) * sizeof(std::uint32_t) +
-         meetings_.capacity() * sizeof(Meeting);
+         meetings_.capacity() * sizeof(Meeting) + grid_.bytes();
 }
 
 }  // namespace aspic::reference

@@ -46,16 +46,20 @@ class TriangleGrid {
   void build(std::span<const Bounds> boxes);
   /// Appends those whose boxes, widened by `margin`, hold the place; relative to the body's first, ascending.
   void near(const Vec3& place, double margin, std::vector<std::uint32_t>& found) const;
+  std::uint64_t bytes() const {
+    return (begin_.capacity() + triangles_.capacity()) * sizeof(std::uint32_t) +
+           boxes_.capacity() * sizeof(Bounds);
+  }
 
  private:
   std::size_t cell(std::size_t axis, double x) const;
 
-  std::span<const Bounds> boxes_;
   Bounds centres_;
   double half_ = 0.0;  // extent of the largest box [m]
   double size_ = 1.0;  // of a cell [m]
   std::array<std::size_t, 3> cells_ = {};
   std::vector<std::uint32_t> begin_, triangles_;  // by cell
+  std::vector<Bounds> boxes_;                     // of these
 };
 
 class NearTriangles {

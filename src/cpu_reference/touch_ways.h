@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "cpu_reference/ball_particles.h"
@@ -68,7 +67,7 @@ class TouchWays {
     for (const Body& body : bodies_)
       far_ = std::max(far_, norm(body.gone.low.abs().max(body.gone.high.abs())));
     // What is no number has gone anywhere.
-    if (!std::isfinite(sum)) far_ = apart_ = std::numeric_limits<T>::infinity();
+    if (!std::isfinite(sum)) far_ = apart_ = far;
   }
   /// Whether nothing that the lists leave out has come near, or nearer than that by no more than `over` [m].
   bool hold(const NearTriangles& near, double over = 0.0) const {
@@ -101,9 +100,9 @@ class TouchWays {
   /// Particles that are measured together, at most, and tasks.
   static constexpr std::uint32_t part_size = 1024;
   static constexpr std::size_t most_tasks = 64;
+  static constexpr T far = std::numeric_limits<T>::infinity();
   struct Box {
-    Array low = Array::Constant(std::numeric_limits<T>::infinity());
-    Array high = Array::Constant(-std::numeric_limits<T>::infinity());
+    Array low = Array::Constant(far), high = Array::Constant(-far);
     void add(const Array& value) {
       low = low.min(value);
       high = high.max(value);
@@ -132,17 +131,27 @@ class TouchWays {
 
   /// Of so many, those of a task.
   static std::size_t task_size(std::size_t count) { return count / most_tasks + 1; }
+  /// Number by number: vectors that are put together in memory are read again before they are there.
   void measure(Part& part, const Particles& at) const {
-    Body way;
-    Array sum = Array::Zero();
+    std::array<T, 3> least_gone = {far, far, far}, most_gone = {-far, -far, -far};
+    std::array<T, 3> least = least_gone, most = most_gone;
+    T sum = T(0);
     for (std::uint32_t p = part.first; p < part.end; ++p) {
-      const Array now = place(p, at), gone = now - from_[p];
-      way.gone.add(gone);
-      way.around.add(now);
-      sum += gone;
+      const std::size_t n = particle_[p] * at.stride;
+      std::array<T, 3> gone;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const T now = at.x[c][n];
+        gone[c] = now - from_[p][static_cast<Eigen::Index>(c)];
+        least_gone[c] = std::min(least_gone[c], gone[c]);
+        most_gone[c] = std::max(most_gone[c], gone[c]);
+        least[c] = std::min(least[c], now);
+        most[c] = std::max(most[c], now);
+      }
+      sum += (gone[0] + gone[1]) + gone[2];
     }
-    part.way = way;
-    part.sum = sum.sum();
+    const auto array = [](const std::array<T, 3>& of) { return Array(of[0], of[1], of[2], T(0)); };
+    part.way = {{array(least_gone), array(most_gone)}, {array(least), array(most)}};
+    part.sum = sum;
   }
   T apart(const Meeting& meeting, const NearTriangles& near, std::span<const Row<T>> x) const {
     const auto gone = [&](std::uint32_t first, std::uint32_t end) {
