@@ -6,13 +6,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 usage() {
   cat <<'END'
 scripts/test.sh                      the core tier, for every change: minutes on two cores after the build
-scripts/test.sh --full               all tests, before a release: half an hour on two cores after the build
+scripts/test.sh --full               all tests, before a release: an hour on two cores after the build
 scripts/test.sh [--full] ARGUMENT …  with arguments of ctest. -R, -L and -I choose from both tiers:
                                      scripts/test.sh -R EqualBits; scripts/test.sh -L drivers
 
 core      each room's own tests; the gpu solvers on llvmpipe with a covering set of methods, terrains, contact
           models, force paths and bodies; pictures; the command line, its manual pages and completion; the Python
-          package; the window's main tests
+          package; the window's main tests; each scene of the independent implementation once
 full      core, and by label:
   pages        pages of every built-in scene in Chromium and Firefox; pages that simulate, with every scene and method, and the site;
                those that simulate are skipped where scripts/wasm.sh has made no module
@@ -26,7 +26,7 @@ full      core, and by label:
   window       the rest of the window's tests
   report       the report's page in a browser, and on paper
   examples     the commands of the documents, shortened
-  independent  the independent implementation of the physics
+  independent  the independent implementation of the physics, under every method
   packages     the Python package from source distribution to wheel to a fresh environment; its sweeps on Dask and submitit;
                its notebooks; the cube that learns to crawl and the robots that evolve, to the end
   install      an installed library, used by a project outside of the tree; the programs of docs/library.md

@@ -39,8 +39,8 @@ class Balls:
         """Balls go from one state to the next, in which they change the particles, which began with start_v."""
         w = self.world.w
         self.v0 = self.v.copy()
-        fly = self.world.integrate or (lambda a, y, u, h: (y + h * (u + h * a(y, u)), u + h * a(y, u)))
-        self.x, self.v = fly(lambda y, u: np.broadcast_to(self.world.gravity, y.shape), self.x, self.v, self.world.h)
+        fly = self.world.integrate or (lambda a, y, u, h: (y + h * (u + h * a(0, y, u)), u + h * a(0, y, u)))
+        self.x, self.v = fly(lambda c, y, u: np.broadcast_to(self.world.gravity, y.shape), self.x, self.v, self.world.h)
         for terrain in self.world.terrains:
             if np.any(terrain.distance_and_normal(self.x)[0] < self.R + 2 * self.epsilon):
                 raise SceneError("A ball is near terrain, which this reading leaves out.")
