@@ -1,7 +1,7 @@
 // Inputs act to the same bits on every backend: several pulls at a time, and pins that come and go.
 #include <gtest/gtest.h>
 
-#include <ranges>
+#include <vector>
 
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
@@ -29,7 +29,9 @@ class InputsOnTheDevice : public aspic::testing::GlTest {
 TEST_F(InputsOnTheDevice, EveryBackendHasTheReferencesBits) {
   // From the end: ConstantsOnTheDevice may run beside it, and either finds compiled what the other has
   // reached.
-  for (const test::EqualityCase& row : test::covering_cases() | std::views::reverse) {
+  const std::vector<test::EqualityCase>& cases = test::covering_cases();
+  for (auto at = cases.rbegin(); at != cases.rend(); ++at) {
+    const test::EqualityCase& row = *at;
     SCOPED_TRACE(test::text_of(row));
     const SharedModel model = shared(test::model_of(row));
     const bool newton = row_of(model->simulation.integrator).kind() == MethodKind::newton;
