@@ -3,6 +3,7 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/revival.h"
 #include "cpu_reference/reference_solver.h"
@@ -78,6 +79,12 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
 }
 
 void Stage::frame(double apart) {
+  // Nobody holds them for longer: with Ctrl down the wheel scrolls no panel.
+  for (const auto& [bit, key] : {std::pair{GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL},
+                                 {GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT},
+                                 {GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT}})
+    if ((held_modifiers_ & bit) != 0) app_->key(key, GLFW_RELEASE, 0);
+  held_modifiers_ = 0;
   const Status drawn = app_->frame(window_->size(), apart);
   ASSERT_TRUE(drawn.ok()) << drawn.error().message();
   window_->show_picture();
@@ -112,6 +119,7 @@ void Stage::frames_to_rest() {
 void Stage::press(int key, int modifiers) {
   app_->key(key, GLFW_PRESS, modifiers);
   app_->key(key, GLFW_RELEASE, modifiers);
+  held_modifiers_ |= modifiers;
 }
 
 void Stage::type(char32_t character) {

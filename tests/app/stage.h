@@ -114,6 +114,7 @@ class Stage : public ::testing::Test {
   std::vector<std::string> severe_;  // messages of the driver
   WidgetLog log_;
   std::unique_ptr<app::App> app_;
+  int held_modifiers_ = 0;  // by press(), until the next picture
 };
 
 /// Hash of the reference's state of a scene after some steps.
