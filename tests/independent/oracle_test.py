@@ -2,9 +2,9 @@
 """Runs the aspic program and the independent oracle on the same scenes and compares every column of the final state.
 
 usage: oracle_test.py ASPIC explicit|implicit|each
-Each scene is written by `aspic scene show`, so that both read one file. `each` is each scene once, under the methods in turn,
-as far as the ground. Exit code 1 if any case differs by more than
-its tolerance, or if a case never touched its terrain (such a case would say nothing about contact).
+Each scene is written by `aspic scene show`, so that both read one file. `each` takes each scene once, the explicit methods and
+the contact models in turn, until it has touched something. Exit code 1 if any case differs by more than its tolerance, or if
+a case never touched its terrain (such a case would say nothing about contact).
 """
 
 import csv
