@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "cpu_parallel/contact_pieces.h"
@@ -91,7 +92,8 @@ void ExplicitSteps::constants_changed() {
 
 std::uint64_t ExplicitSteps::bytes() const {
   std::uint64_t sum = sizeof(*this) + bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) +
-                      bytes_of(sweeps_) + bytes_of(band_sweeps_);
+                      bytes_of(sweeps_) + bytes_of(band_sweeps_) + bytes_of(touched_) +
+                      bytes_of(kept_force_) + bytes_of(kept_sums_);
   for (const Task& task : tasks_) sum += bytes_of(task.near) + bytes_of(task.resting);
   for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
   for (const BandSweep& sweep : band_sweeps_) sum += sweep.bytes();
@@ -99,7 +101,7 @@ std::uint64_t ExplicitSteps::bytes() const {
 }
 
 void ExplicitSteps::cut(std::size_t body) {
-  const auto add = [&](Range range) { tasks_.push_back({body, range, {}, true, {}, {}}); };
+  const auto add = [&](Range range) { tasks_.push_back({body, range, {}, true, {}, {}, 0}); };
   if (const auto* const lists = std::get_if<SpringLists>(&springs_[body]))
     return for_parts({lists->first(), lists->count()}, piece_size, add);
   if (const auto* const bands = std::get_if<Bands>(&springs_[body])) {
@@ -148,6 +150,11 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
   if (!known_) look_at(start);
   const bool may_touch =
       bodies_ && !all_apart() && bodies_->begin_step(dynamics_.step(), view(start), on_workers());
+  if (may_touch) {
+    touched_.resize(bodies_->particles().size());
+    kept_force_.resize(touched_.size());
+    if (method_.stages.size() > 1) kept_sums_.resize(touched_.size());
+  }
   const double h = model_->simulation.timestep;
   const std::size_t stages = method_.stages.size();
   const Particles* at = &start;
@@ -169,7 +176,6 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
                             method_.drift};
     lengths_.set(dynamics_, s == 0 ? 0.0 : method_.stages[s - 1].advance);
     touching_ = may_touch && bodies_->find(view(*at), on_workers());
-    if (touching_) touched_.resize(bodies_->particles().size());
     workers_.run(tasks_.size(), [&](std::size_t n) {
       if (!dynamics_.interrupted()) run(tasks_[n], move);
     });
@@ -188,6 +194,7 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   const ForceInput input = {stage.at, mass_.data(), {g.x(), g.y(), g.z()}, arithmetic_};
   const bool near = near_terrain(*model_, task.box);
   if (stage.at == stage.start) find_resting(task, stage);
+  if (touching_) task.kept = first_touched(task);
   Moved moved(speed_limit);
   if (const auto* const lattice = std::get_if<Lattice>(&springs_[task.body])) {
     const std::size_t size = lattice->plane_size();
@@ -214,7 +221,7 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   }
   task.box = moved.box();
   task.sound = moved.sound;
-  if (touching_) return;  // the others move first
+  if (touching_) return;  // some move again first
   end(task, stage);
 }
 
@@ -260,37 +267,19 @@ void put_force(const Forces& forces, std::size_t n, const Vector& f) {
 void ExplicitSteps::finish(Task& task, const StageMove& stage, bool near, Range range, const Forces& forces,
                            Moved& moved) {
   pull(stage, range, forces);
-  if (touching_) {
-    const std::uint32_t* const all = bodies_->particles().data();
-    for (const std::uint32_t& i : touched_in(range))
-      touched_[static_cast<std::size_t>(&i - all)] = force_at(forces, i - range.first);
-  }
+  if (touching_) keep_touched(task, stage, range, forces);
   if (near || !task.resting.empty()) add_contact(task, stage, range, forces);
-  if (touching_)
-    move_rest(stage, range, forces, moved);
-  else
-    move(stage, range, forces, moved);
+  move(stage, range, forces, moved);
 }
 
-/// Of the particles that bodies touch in this stage, those of a range.
-std::span<const std::uint32_t> ExplicitSteps::touched_in(Range range) const {
+/// What it takes to move those particles of a range again that bodies may touch.
+void ExplicitSteps::keep_touched(Task& task, const StageMove& stage, Range range, const Forces& forces) {
   const auto all = bodies_->particles();
-  const auto first = std::ranges::lower_bound(all, range.first),
-             end = std::ranges::lower_bound(all, range.first + range.count);
-  return {first, end};
-}
-
-/// Moves the particles of a range that no body touches.
-void ExplicitSteps::move_rest(const StageMove& stage, Range range, const Forces& forces, Moved& moved) {
-  std::size_t from = range.first;
-  const auto move_until = [&](std::size_t end) {
-    const std::size_t n = from - range.first;
-    const Forces part = {{forces.component[0] + n, forces.component[1] + n, forces.component[2] + n}};
-    if (from < end) move(stage, {from, end - from}, part, moved);
-    from = end + 1;
-  };
-  for (const std::uint32_t i : touched_in(range)) move_until(i);
-  move_until(range.first + range.count);
+  for (; task.kept < all.size() && all[task.kept] < range.first + range.count; ++task.kept) {
+    const std::size_t i = all[task.kept];
+    touched_[task.kept] = kept_force_[task.kept] = force_at(forces, i - range.first);
+    if (stage.accumulate) kept_sums_[task.kept] = {vector_of(stage.sums->x, i), vector_of(stage.sums->v, i)};
+  }
 }
 
 /// Pushes and friction of bodies, then what comes after them for the particles they touch.
@@ -303,22 +292,39 @@ void ExplicitSteps::touch(const StageMove& stage) {
   });
 }
 
+/// Moves the particles of a task on which bodies act, as if they had not moved.
 void ExplicitSteps::move_touched(Task& task, const StageMove& stage) {
-  const auto all = bodies_->particles(), own = touched_in(task.range);
-  if (own.empty()) return;
+  const auto all = bodies_->particles();
   alignas(64) float f[3][slice] = {};
   const Forces forces = {{f[0], f[1], f[2]}};
   Moved moved(speed_limit);
-  for (std::size_t n = 0; n < own.size();) {
+  const auto same = [&](std::size_t n) {
+    return std::memcmp(touched_[n].data(), kept_force_[n].data(), sizeof(Vector)) == 0;
+  };
+  for (std::size_t n = first_touched(task); n < task.kept;) {
+    if (same(n)) {
+      ++n;
+      continue;
+    }
     // One after the other, they move together.
-    Range part = {own[n], 0};
-    for (; n < own.size() && part.count < slice && own[n] == part.first + part.count; ++n, ++part.count)
-      put_force(forces, part.count, touched_[static_cast<std::size_t>(&own[n] - all.data())]);
+    Range part = {all[n], 0};
+    for (; n < task.kept && part.count < slice && all[n] == part.first + part.count; ++n, ++part.count) {
+      put_force(forces, part.count, touched_[n]);
+      if (!stage.accumulate) continue;
+      set(stage.sums->x, all[n], kept_sums_[n][0]);
+      set(stage.sums->v, all[n], kept_sums_[n][1]);
+    }
     add_contact(task, stage, part, forces);
     move(stage, part, forces, moved);
   }
   task.box = around(task.box, moved.box());
   task.sound = task.sound && moved.sound;
+}
+
+/// Of the particles that bodies may touch, the first from a task's first on.
+std::size_t ExplicitSteps::first_touched(const Task& task) const {
+  const auto all = bodies_->particles();
+  return static_cast<std::size_t>(std::ranges::lower_bound(all, task.range.first) - all.begin());
 }
 
 void ExplicitSteps::pull(const StageMove& stage, Range range, const Forces& forces) {

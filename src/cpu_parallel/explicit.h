@@ -1,6 +1,7 @@
 #pragma once
 // Steps of the explicit methods for the parallel solver: springs, contact and a stage of the method in one
 // pass over the particles, the terrain's response at its end.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -37,6 +38,7 @@ class ExplicitSteps final : public Steps {
     /// Those that may be near terrain at the step's start: at its end terrain moves none but them.
     std::vector<Range> near;
     std::vector<reference::RestingContact<float>> resting;  ///< of this step, in ascending particle index
+    std::size_t kept;  ///< those before, in touched_, are of this task or of one before
   };
 
   void cut(std::size_t body);
@@ -55,8 +57,8 @@ class ExplicitSteps final : public Steps {
   }
   void touch(const StageMove& stage);
   void move_touched(Task& task, const StageMove& stage);
-  std::span<const std::uint32_t> touched_in(Range range) const;
-  void move_rest(const StageMove& stage, Range range, const Forces& forces, Moved& moved);
+  void keep_touched(Task& task, const StageMove& stage, Range range, const Forces& forces);
+  std::size_t first_touched(const Task& task) const;
   void find_resting(Task& task, const StageMove& stage) const;
   template <class F>
   void for_near(const VectorArray& x, Range range, const F& f) const;
@@ -77,7 +79,9 @@ class ExplicitSteps final : public Steps {
   std::unique_ptr<reference::BodyContact<float>> bodies_;  ///< none where none can touch
   bool touching_ = false;                                  ///< in the stage at hand
   std::vector<Box> body_boxes_;                            ///< around all tasks of each body
-  std::vector<reference::Vector<float>> touched_;          ///< forces on bodies_->particles() [N]
+  /// Of bodies_->particles(): forces with and without those of bodies [N], and their sums before the stage.
+  std::vector<reference::Vector<float>> touched_, kept_force_;
+  std::vector<std::array<reference::Vector<float>, 2>> kept_sums_;
 };
 
 }  // namespace aspic::parallel

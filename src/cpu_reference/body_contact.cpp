@@ -1,6 +1,7 @@
 #include "cpu_reference/body_contact.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <tuple>
 #include <type_traits>
@@ -116,9 +117,8 @@ BodyContact<T>::BodyContact(const Model& model, double ahead_step)
       short_(surfaces_),
       x_(surfaces_.points.size()),
       v_(surfaces_.points.size()),
-      places_(surfaces_.points.size()),
-      named_((surfaces_.points.size() + 63) / 64),
-      place_of_(surfaces_.points.size(), nowhere) {
+      place_of_(surfaces_.points.size(), nowhere),
+      places_(surfaces_.points.size()) {
   for (std::uint32_t p = 0; p < surfaces_.points.size(); ++p) {
     const TouchPoint& point = surfaces_.points[p];
     for (std::size_t n = 0; n < 2; ++n) weight_[n].push_back(static_cast<T>(point.weight[n]));
@@ -177,9 +177,9 @@ bool BodyContact<T>::begin_measured(std::uint64_t step, const Particles& start) 
 /// Other encounters are near.
 template <class T>
 void BodyContact<T>::list_used(const Particles& at) {
+  name(near_.met());
   met_.clear();
-  for (const std::uint32_t p : near_.met()) name(p);
-  for_named([&](std::uint32_t p) { met_.push_back({surfaces_.points[p].carrier[0], p}); });
+  for (const std::uint32_t p : named_.added()) met_.push_back({surfaces_.points[p].carrier[0], p});
   lay_out(at, one_by_one);
   own_.clear();
   asked_.clear();
@@ -192,9 +192,23 @@ void BodyContact<T>::list_used(const Particles& at) {
         {point.own, {weight_[0][near.point], weight_[1][near.point]}, table_.of(own_.back(), near.body)});
   }
   short_.reset(near_, own_, x_);
+  name(short_.followed());
+  particles_.clear();
+  for (const std::uint32_t p : named_.added()) {
+    place_of_[p] = static_cast<std::uint32_t>(particles_.size());
+    particles_.push_back(surfaces_.points[p].carrier[0]);
+  }
   normals_.clear();
   for (std::size_t n = 0; n < own_.size(); ++n) want(n);
   normals_.sort();
+}
+
+/// These points, ascending and each once.
+template <class T>
+void BodyContact<T>::name(std::span<const std::uint32_t> points) {
+  named_.clear();
+  for (const std::uint32_t p : points) named_.add(p);
+  named_.sort();
 }
 
 /// What is made ahead for the short list of an encounter.
@@ -479,7 +493,7 @@ void BodyContact<T>::add(const Looker& p, const Sight<T>& seen, const TouchGap<T
   made.n = gap.n;
   made.d = gap.d;
   made.reach = reach_of(p.near, p.pair);
-  const auto v = [&](std::uint32_t point) { return vector_of(v_[point]); };
+  const auto v = [&](std::uint32_t place) { return vector_of(v_[named_.added()[place]]); };
   const T u = dot3<T>(made.n, over_carriers<T>(made, v) - over_corners<T>(made, v));
   made.rest = made.k * (made.reach - made.d);
   if (at_end_) made.rest = made.rest + made.c * u;
@@ -499,7 +513,6 @@ void BodyContact<T>::add(std::size_t encounter, const TouchBatch<T>& batch, std:
   made.push = batch.push[place];
 }
 
-/// With points in the place of places until these are known.
 template <class T>
 Touch<T>& BodyContact<T>::begin_touch(std::size_t encounter, std::uint32_t triangle, T b, T c,
                                       Piece& piece) const {
@@ -510,7 +523,10 @@ Touch<T>& BodyContact<T>::begin_touch(std::size_t encounter, std::uint32_t trian
   made.point = near_.encounters()[encounter].point;
   made.triangle = triangle;
   made.carriers = asked.own[0] == asked.own[1] ? 1 : 2;
-  made.place = {asked.own[0], asked.own[1], face[0], face[1], face[2]};
+  made.place = {place_of_[asked.own[0]], place_of_[asked.own[1]], place_of_[face[0]], place_of_[face[1]],
+                place_of_[face[2]]};
+  assert(named(asked.own[0]) && named(asked.own[1]) &&
+         std::ranges::all_of(std::span(face).first(3), [&](std::uint32_t p) { return named(p); }));
   made.weight = {asked.weight[0], asked.weight[1], (T(1) - b) - c, b, c};
   made.k = pair.k;
   made.c = pair.c;
@@ -534,17 +550,19 @@ T BodyContact<T>::reach_of(const Encounter& encounter, const TouchConstants<T>& 
   return std::min(back(*found, pair), pair.reach);
 }
 
-/// Those of the points that contacts have in the place of places, in order: points of particles are in the
-/// order of these.
 template <class T>
-void BodyContact<T>::name_particles() {
-  particles_.clear();
-  for (const Touch<T>& touch : touches_)
-    for (const std::uint32_t p : touch.place) name(p);
-  for_named([&](std::uint32_t p) {
-    place_of_[p] = static_cast<std::uint32_t>(particles_.size());
-    particles_.push_back(surfaces_.points[p].carrier[0]);
-  });
+void BodyContact<T>::push(std::vector<Vector<T>>& f) {
+  share_.assign(particles_.size(), T(0));
+  spread_pushes<T>(touches_, f, share_);
+}
+
+template <class T>
+void BodyContact<T>::begin_friction(const Particles& start, const std::vector<Vector<T>>& f) {
+  v1_.resize(particles_.size());
+  for (std::size_t n = 0; n < particles_.size(); ++n) {
+    v1_[n] = start.velocity(particles_[n]) + (h_ * w_[n]) * f[n];
+    share_[n] = w_[n] * share_[n];
+  }
 }
 
 template <class T>
@@ -554,6 +572,11 @@ void BodyContact<T>::find_friction(Touch<T>& touch) const {
   const auto v1 = [&](std::uint32_t place) { return v1_[place]; };
   const T W = (over_carriers<T>(touch, part) + over_corners<T>(touch, part)) / touch.push;
   touch.rub = friction_of<T>(touch, W, over_carriers<T>(touch, v1), over_corners<T>(touch, v1), h_);
+}
+
+template <class T>
+void BodyContact<T>::rub(std::vector<Vector<T>>& f) const {
+  spread<T>(touches_, f, [](const Touch<T>& touch) -> const Vector<T>& { return touch.rub; });
 }
 
 template <class T>
@@ -570,11 +593,11 @@ template <class T>
 std::uint64_t BodyContact<T>::bytes() const {
   const auto of = [](const auto&... lists) { return ((lists.capacity() * sizeof(lists[0])) + ...); };
   std::uint64_t all = sizeof(*this) + near_.bytes() + normals_.bytes() + short_.bytes() + ways_.bytes() +
-                      surfaces_.points.size() * sizeof(TouchPoint) +
+                      named_.bytes() + surfaces_.points.size() * sizeof(TouchPoint) +
                       surfaces_.triangles.size() *
                           (sizeof(TouchTriangle) + sizeof(surfaces_.faces[0]) + 3 * sizeof(std::uint32_t)) +
                       of(eased_, weight_[0], weight_[1], x_, v_, own_, asked_, surface_, met_, places_,
-                         pieces_, touches_, named_, particles_, place_of_, share_, v1_);
+                         pieces_, touches_, particles_, place_of_, w_, share_, v1_);
   for (const Piece& p : pieces_) all += of(p.sights, p.around, p.by_distance, p.by_way, p.touches, p.listed);
   return all;
 }

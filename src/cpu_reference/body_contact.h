@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,6 +13,7 @@
 
 #include "cpu_reference/ball_particles.h"
 #include "cpu_reference/near_triangles.h"
+#include "cpu_reference/number_set.h"
 #include "cpu_reference/pieces.h"
 #include "cpu_reference/touch_batch.h"
 #include "cpu_reference/touch_geometry.h"
@@ -104,8 +104,6 @@ class BodyContact {
     in_turn_ = 0;
     run(pieces, [&](std::size_t n) { find_in(n); });
     gather();
-    name_particles();
-    run_pieces(touches_.size(), task_size, run, [&](std::size_t n) { place_touch(touches_[n]); });
     return !touches_.empty();
   }
   /// How what is seen is computed, to the same bits as look_one_by_one(); and what points touch whose short
@@ -119,7 +117,7 @@ class BodyContact {
   void set_at_end(bool on) { at_end_ = on; }
   /// Those of find(), ascending by point, body of the triangle, and first contact before second sides.
   std::span<const Touch<T>> touches() const { return touches_; }
-  /// The particles that they name, ascending.
+  /// The particles that contacts of this step may name, ascending.
   std::span<const std::uint32_t> particles() const { return particles_; }
 
   /// Adds pushes and friction to the forces [N] of particles(), which gravity, springs and pulls have made.
@@ -128,7 +126,7 @@ class BodyContact {
   void act(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
            const Run& run) {
     push(start, inverse_mass, f, run);
-    if (rubs_) spread<T>(touches_, f, [](const Touch<T>& touch) { return touch.rub; });
+    if (rubs_) rub(f);
   }
   template <class InverseMass>
   void act(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f) {
@@ -139,15 +137,11 @@ class BodyContact {
   template <class InverseMass, class Run>
   void push(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
             const Run& run) {
-    share_.assign(particles_.size(), T(0));
-    spread_pushes<T>(touches_, f, share_);
+    push(f);
     if (!rubs_) return;
-    v1_.resize(particles_.size());
-    for (std::size_t n = 0; n < particles_.size(); ++n) {
-      const T w = inverse_mass(particles_[n]);
-      v1_[n] = start.velocity(particles_[n]) + (h_ * w) * f[n];
-      share_[n] = w * share_[n];
-    }
+    w_.resize(particles_.size());
+    for (std::size_t n = 0; n < w_.size(); ++n) w_[n] = inverse_mass(particles_[n]);
+    begin_friction(start, f);
     run_pieces(touches_.size(), task_size, run, [&](std::size_t n) { find_friction(touches_[n]); });
   }
   /// Bodies whose boxes are farther apart than this do not touch [m].
@@ -184,6 +178,11 @@ class BodyContact {
   static constexpr std::size_t task_size = 512;
   bool begin_measured(std::uint64_t step, const Particles& start);
   void list_used(const Particles& at);
+  void name(std::span<const std::uint32_t> points);
+  /// Whether contacts may name this point while the lists are those that there are.
+  bool named(std::uint32_t point) const {
+    return place_of_[point] < named_.added().size() && named_.added()[place_of_[point]] == point;
+  }
   void want(std::size_t encounter);
   void find_in(std::size_t piece);
   /// Places and velocities of all that may touch, one after the other.
@@ -212,20 +211,10 @@ class BodyContact {
   void add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap, Piece& piece) const;
   void add(std::size_t encounter, const TouchBatch<T>& batch, std::size_t place, Piece& piece) const;
   Touch<T>& begin_touch(std::size_t encounter, std::uint32_t triangle, T b, T c, Piece& piece) const;
-  void name(std::uint32_t point) { named_[point / 64] |= std::uint64_t{1} << point % 64; }
-  /// Calls use(point) for those that have been named since, ascending and each once.
-  template <class Use>
-  void for_named(const Use& use) {
-    for (std::uint32_t n = 0; n < named_.size(); ++n)
-      for (std::uint64_t bits = std::exchange(named_[n], 0); bits != 0; bits &= bits - 1)
-        use(64 * n + static_cast<std::uint32_t>(std::countr_zero(bits)));
-  }
-  void name_particles();
-  /// Places of what a contact names, where points stood in for them.
-  void place_touch(Touch<T>& touch) const {
-    for (std::uint32_t& place : touch.place) place = place_of_[place];
-  }
+  void push(std::vector<Vector<T>>& f);
+  void begin_friction(const Particles& start, const std::vector<Vector<T>>& f);
   void find_friction(Touch<T>& touch) const;
+  void rub(std::vector<Vector<T>>& f) const;
   std::uint32_t body_of(std::uint32_t point) const;
   std::uint32_t body_of_triangle(std::uint32_t triangle) const;
   T back(const Eased& eased, const TouchConstants<T>& pair) const;
@@ -263,13 +252,16 @@ class BodyContact {
   };
   std::vector<SurfaceParticle> surface_;  // ascending by both
   std::vector<SurfaceParticle> met_;      // those that meetings name, ascending
+  NumberSet named_;                       // points that contacts may name, ascending,
+  std::vector<std::uint32_t> particles_;  // and their particles, ascending, too
+  std::vector<std::uint32_t> place_of_;   // where it is among these, by point
   std::vector<Vec3> places_;              // by point
   std::vector<Piece> pieces_;
   std::atomic<std::size_t> in_turn_ = 0;  // all pieces before this one are with touches_
   std::vector<Touch<T>> touches_;
-  std::vector<std::uint64_t> named_;                 // a bit for each point
-  std::vector<std::uint32_t> particles_, place_of_;  // the latter by point
-  std::vector<T> share_;  // by place among the particles, as v1_; times the inverse mass for friction
+  // By place among the particles: their inverse masses, what pushes share them out by, times the former for
+  // friction, and the velocities that it meets.
+  std::vector<T> w_, share_;
   std::vector<Vector<T>> v1_;
 };
 

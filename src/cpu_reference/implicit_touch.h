@@ -101,7 +101,8 @@ class TouchAhead {
     return search_again(start, end, force, inverse_mass, one_by_one);
   }
 
-  /// The particles that contacts name, ascending; force(), block() and product() are by place in this list.
+  /// The particles that contacts may name, ascending; force(), block() and product() are by place in this
+  /// list.
   std::span<const std::uint32_t> particles() const { return contact_.particles(); }
 
   /// Answers at the trial velocities v'(particle) [m/s]. Returns whether any contact acts.

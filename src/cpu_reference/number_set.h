@@ -27,6 +27,9 @@ class NumberSet {
     for (std::uint32_t n = 0; n < holds_.size(); ++n)
       if (holds_[n]) added_.push_back(n);
   }
+  std::uint64_t bytes() const {
+    return holds_.capacity() * sizeof(holds_[0]) + added_.capacity() * sizeof(added_[0]);
+  }
 
  private:
   std::vector<char> holds_;

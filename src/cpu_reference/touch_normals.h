@@ -68,7 +68,7 @@ class TouchNormals {
 
   std::uint64_t bytes() const {
     return g_.capacity() * sizeof(g_[0]) + normals_.capacity() * sizeof(normals_[0]) +
-           made_.capacity() * sizeof(round_);
+           made_.capacity() * sizeof(round_) + points_.bytes() + triangles_.bytes();
   }
 
  private:

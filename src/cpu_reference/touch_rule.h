@@ -18,7 +18,7 @@ struct Touch {
   std::uint32_t point = 0, triangle = 0;  ///< numbers in TouchSurfaces
   std::uint32_t carriers = 1;             ///< 1 or 2: particles that carry the point
   /// Of the carriers, from [2] on of the triangle's corners: places in the list of all particles that
-  /// contacts name.
+  /// contacts may name.
   std::array<std::uint32_t, 5> place = {};
   std::array<T, 5> weight = {};       ///< of each, ≥ 0
   Vector<T> n = Vector<T>::Zero();    ///< unit normal towards the point

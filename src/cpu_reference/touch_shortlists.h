@@ -60,6 +60,12 @@ class TouchShortlists {
       if (old == known.size() || key(known[old]) != key(encounters_[n])) continue;
       lists_[n] = before[old];
       wear(lists_[n], zones_before[zone_before[old]].way);
+      // What is followed, and named, is near.
+      const auto is_near = [all = near.triangles(encounters_[n])](std::uint32_t t) {
+        return std::ranges::binary_search(all, t);
+      };
+      if (!std::ranges::all_of(std::span(lists_[n].triangle).first(lists_[n].count), is_near))
+        lists_[n].spare = -1.0;
     }
     make_zones(near, own, x);
   }
@@ -82,6 +88,8 @@ class TouchShortlists {
   const List& operator[](std::size_t encounter) const { return lists_[encounter]; }
   List& list(std::size_t encounter) { return lists_[encounter]; }
   const std::vector<List>& lists() const { return lists_; }
+  /// Carriers of the points, and corners of the triangles near them, some more than once.
+  std::span<const std::uint32_t> followed() const { return followed_; }
   /// Whether an encounter has to be looked at.
   bool may_touch(std::size_t encounter) const {
     return !holds(encounter) || (lists_[encounter].count > 0 && !lists_[encounter].idle);
@@ -107,7 +115,8 @@ class TouchShortlists {
   std::uint64_t bytes() const {
     return lists_.capacity() * sizeof(List) + encounters_.capacity() * sizeof(Encounter) +
            (zone_.capacity() + order_.capacity() + followed_.capacity()) * sizeof(std::uint32_t) +
-           zones_.capacity() * sizeof(Zone) + from_.capacity() * sizeof(from_[0]);
+           zones_.capacity() * sizeof(Zone) + from_.capacity() * sizeof(from_[0]) + triangle_set_.bytes() +
+           corner_set_.bytes() + carrier_set_.bytes();
   }
 
  private:
