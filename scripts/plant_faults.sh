@@ -136,6 +136,6 @@ while IFS=$'\t' read -r name file change checks detectors; do
     noticed[$column]+="${noticed[$column]:+, }$found"
   done
   cp "$work/original" "$tree/$file"
-  echo "| $name | \`$file\` | ${noticed[rows]} | ${noticed[core]} | ${noticed[full]} |"
+  echo "| $name | \`$file\` | ${noticed[rows]:-–} | ${noticed[core]:-–} | ${noticed[full]:-–} |"
 done <"$list"
 exit "$unnoticed"

@@ -1,5 +1,5 @@
-// Bodies of cells against theory: a beam under its own weight, its vibrations, and a body of two materials in
-// free fall.
+// Bodies of cells against theory: a beam under its own weight, its vibrations, and bodies of two materials,
+// in free fall and next to those of one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -219,6 +219,41 @@ Result<Finding> free_fall(const Subject& subject, Integrator integrator) {
   return at_most(length(centre_of(end.velocity) - expected), 1e-11, "m/s");
 }
 
+/// A spring is as stiff, and as damped, as its cells are on average. So what the springs of a body of two
+/// materials do, with what they do where the two are exchanged, is what they do in bodies of either alone:
+/// how far the changes of velocity in a step come off that, as a share of the largest.
+Result<Finding> mixture(const Subject& subject) {
+  const std::vector<std::vector<std::string>> mixed = {{"aab", "b.a", "abb"}, {"bba", "a.a", "aab"}};
+  const std::array<std::array<char, 2>, 4> becomes = {{{'a', 'b'}, {'b', 'a'}, {'a', 'a'}, {'b', 'b'}}};
+  std::vector<Vec3> off;
+  double largest = 0.0;
+  for (std::size_t body = 0; body < becomes.size(); ++body) {
+    ModelSettings settings;
+    settings.simulation.gravity = {};
+    settings.simulation.integrator = Integrator::explicit_euler;
+    settings.materials = {{1000.0, 1e5, 0.2, "soft"}, {1000.0, 7e5, 0.5, "hard"}};
+    VoxelsSettings& voxels = settings.voxels.emplace_back();
+    voxels.palette = {{"a", "soft"}, {"b", "hard"}};
+    voxels.layers = mixed;
+    for (std::vector<std::string>& layer : voxels.layers)
+      for (std::string& row : layer)
+        for (char& cell : row)
+          if (cell != '.') cell = becomes[body][cell == 'a' ? 0 : 1];
+    ASPIC_TRY(auto model, build_model(settings));
+    const State start = shaken(model, 0.1 * voxels.size, 0.5, 31);
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1, &start));
+    off.resize(end.velocity.size());
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      const Vec3 change = end.velocity[i] - start.velocity[i];
+      off[i] = off[i] + (body < 2 ? 1.0 : -1.0) * change;
+      largest = std::max(largest, length(change));
+    }
+  }
+  double furthest = 0.0;
+  for (const Vec3& each : off) furthest = std::max(furthest, length(each));
+  return at_most(furthest / largest, 1e-13, "");
+}
+
 }  // namespace
 
 void add_voxel_checks(std::vector<Check>& checks) {
@@ -234,6 +269,10 @@ void add_voxel_checks(std::vector<Check>& checks) {
                      "frequency over that of the solid tends to 1",
                      mode + 1, slender_modes[mode]),
          "1 ± 0.01", true, false, [mode](const Subject& subject) { return vibration(subject, mode); }});
+  checks.push_back({"voxels/mixture",
+                    "two materials, and the two exchanged: changes of velocity together against those of "
+                    "either alone",
+                    at_most_text(1e-13, ""), true, false, mixture});
   add_for_each_integrator(
       checks, "voxels/free-fall",
       "two materials, a hole, a hinge and a piece apart, 1,000 steps: velocity of the centre of "
