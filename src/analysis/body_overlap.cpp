@@ -1,9 +1,11 @@
 #include "analysis/body_overlap.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -20,6 +22,13 @@ constexpr double no_bound = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t block_size = 32;
 /// Of how many points of a pair the depth is found; of more, every second, third …
 constexpr std::size_t most_measured = 200;
+/// Of how many particles it is found whether they are within another body.
+constexpr std::size_t most_tried = 2000;
+
+/// Every second, third … so that there are no more than `most`.
+std::size_t stride_of(std::size_t count, std::size_t most) {
+  return std::max<std::size_t>(1, (count + most - 1) / most);
+}
 
 /// A closed surface in space.
 class Skin {
@@ -160,10 +169,61 @@ void DeepPoints::take(const State& state, const Boxes& boxes, std::uint32_t a, s
   if (deep.empty()) return;
   BodyOverlap& overlap = pair_of(found, points.body, faces.body);
   overlap.most = D;
-  const std::size_t stride = (deep.size() + most_measured - 1) / most_measured;
-  for (std::size_t n = 0; n < deep.size(); n += stride)
+  for (std::size_t n = 0; n < deep.size(); n += stride_of(deep.size(), most_measured))
     overlap.deepest = std::max(overlap.deepest, skin.distance(deep[n], no_bound));
 }
+
+namespace {
+
+/// How deep the deepest of these places is within a closed surface [m]; 0 if none is.
+double deepest_within(const Skin& skin, const std::vector<Vector>& places) {
+  std::vector<Vector> within;
+  for (std::size_t n = 0; n < places.size(); n += stride_of(places.size(), most_tried))
+    if (skin.holds(places[n])) within.push_back(places[n]);
+  double deepest = 0.0;
+  for (std::size_t n = 0; n < within.size(); n += stride_of(within.size(), most_measured))
+    deepest = std::max(deepest, skin.distance(within[n], no_bound));
+  return deepest;
+}
+
+/// Particles of one body within another, those inside of it, too: where bodies are nearly in one place, all
+/// points of their surfaces are next to faces that turn the same way, which push nothing.
+void add_particles_within(const Model& model, const State& state, const TouchSurfaces& surfaces,
+                          std::vector<BodyOverlap>& overlaps) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  const auto place = [&](std::size_t p) { return reference::rounded<double>(state.position[p]); };
+  const auto for_particles = [&](const TouchBody& of, const auto& use) {
+    const Body& body = model.bodies[of.body];
+    for (std::size_t n = 0; n < body.particle_count; ++n) use(place(body.first_particle + n));
+  };
+  for (const TouchBody& each : surfaces.bodies) {
+    Eigen::AlignedBox3d& box = boxes.emplace_back();
+    for_particles(each, [&](const Vector& x) { box.extend(x); });
+  }
+  for (std::size_t b = 0; b < surfaces.bodies.size(); ++b) {
+    const TouchBody& faces = surfaces.bodies[b];
+    std::optional<Skin> skin;
+    for (std::size_t a = 0; faces.closed && a < surfaces.bodies.size(); ++a) {
+      const TouchBody& points = surfaces.bodies[a];
+      if (points.body == faces.body || !boxes[a].intersects(boxes[b])) continue;
+      std::vector<Vector> places;
+      for_particles(points, [&](const Vector& x) {
+        if (boxes[b].contains(x)) places.push_back(x);
+      });
+      if (places.empty()) continue;
+      if (!skin)
+        skin.emplace(std::span(surfaces.triangles).subspan(faces.first_triangle, faces.triangle_count),
+                     state);
+      const double deepest = deepest_within(*skin, places);
+      if (!(deepest > 0.0)) continue;
+      BodyOverlap& overlap = pair_of(overlaps, points.body, faces.body);
+      overlap.most = std::max(overlap.most, touch_pair(model.contact, points, faces, false).depth);
+      overlap.deepest = std::max(overlap.deepest, deepest);
+    }
+  }
+}
+
+}  // namespace
 
 std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state) {
   if (!model.contact.bodies || !bodies_touch(model)) return {};
@@ -199,6 +259,7 @@ std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state) {
     const double near = std::max(pair.reach - touch.d, 0.0);
     overlap.energy += 0.5 * pair.stiffness * near * near;
   }
+  add_particles_within(model, state, surfaces, overlaps);
   // What touches without being within each other, but for rounding, is left out.
   std::erase_if(overlaps, [](const BodyOverlap& each) { return !(each.deepest > 1e-6 * each.most); });
   std::ranges::sort(overlaps, {}, [](const BodyOverlap& each) { return std::pair(each.a, each.b); });

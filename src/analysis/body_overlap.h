@@ -51,7 +51,8 @@ class DeepPoints {
   ContactSettings contact_;
 };
 
-/// Every pair of which one has points within the other at a state, with what is deeper than D; ascending.
+/// Every pair of which one has points or particles within the other at a state, with what is deeper than D;
+/// ascending.
 /// Nothing where the model's bodies do not touch each other.
 std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state);
 

@@ -68,9 +68,9 @@ std::string OverlapWatch::at_start() const {
   std::vector<std::string> pairs;
   for (const BodyOverlap& each : all)
     pairs.push_back(
-        fmt::format("{} by {:.3g} m{}, {:.3g} J", parts_->pair(each), each.deepest,
+        fmt::format("{} by {:.3g} m{}{}", parts_->pair(each), each.deepest,
                     each.locked() ? fmt::format(", deeper than the {:.3g} m that are pushed", each.most) : "",
-                    each.energy));
+                    each.energy > 0.0 ? fmt::format(", {:.3g} J", each.energy) : ""));
   const bool locked = std::ranges::any_of(all, &BodyOverlap::locked);
   return fmt::format(
       "{} overlap at the start: {}. {}; move them apart in the scene.",

@@ -65,6 +65,22 @@ TEST(BodyOverlap, WhatIsDeeperThanASpacingIsLocked) {
   EXPECT_LT(found[0].deepest, 2.0);
 }
 
+// All points of their surfaces are next to faces that turn the same way: the particles inside tell.
+TEST(BodyOverlap, OfBodiesNearlyInOnePlaceIsTold) {
+  for (const Vec3& at : {Vec3{}, Vec3{0.1, 0.0, 0.0}, Vec3{0.3, 0.3, 0.3}}) {
+    const auto found = overlaps({cube_at({}, 4.0), cube_at(at, 4.0)});
+    ASSERT_EQ(found.size(), 1u) << at.x;
+    EXPECT_TRUE(found[0].locked()) << at.x;
+    // Not every particle is looked at: one a spacing from the deepest is.
+    EXPECT_GT(found[0].deepest, 2.0 - at.x - s - 1e-9) << at.x;
+    EXPECT_LT(found[0].deepest, 2.0 + 1e-9) << at.x;
+  }
+  CubeSettings turned = cube_at({}, 4.0);
+  turned.rotation = {{0.0, 1.0, 0.0}, 30.0};
+  EXPECT_EQ(overlaps({cube_at({}, 4.0), turned}).size(), 1u);
+  EXPECT_EQ(overlaps({cube_at({}, 4.0), cube_at({0.05, 0.0, 0.0}, 3.5)}).size(), 1u);
+}
+
 // Rays from the points of aligned bodies of one spacing run through corners and sides of triangles.
 TEST(BodyOverlap, AlignedBodiesOfOneSpacingAreNoneTheLess) {
   const auto found =
