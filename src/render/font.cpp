@@ -26,9 +26,10 @@ namespace {
 std::vector<char32_t> character_set() {
   std::vector<char32_t> set;
   for (char32_t c = 0x20; c <= 0x7e; ++c) set.push_back(c);
-  for (char32_t c = 0xa0; c <= 0xff; ++c) set.push_back(c);
-  for (char32_t c = 0x391; c <= 0x3c9; ++c) set.push_back(c);
-  for (const char32_t c : U"−–—…≤≥∞√≈×·₀₁₂ₜ") {
+  for (char32_t c = 0xa0; c <= 0x17f; ++c) set.push_back(c);
+  for (char32_t c = 0x386; c <= 0x3ce; ++c) set.push_back(c);
+  for (char32_t c = 0x400; c <= 0x45f; ++c) set.push_back(c);
+  for (const char32_t c : U"ȘșȚțẞґҐ‘’“”„−–—…≤≥∞√≈₀₁₂ₜ") {
     if (c != 0) set.push_back(c);
   }
   return set;

@@ -15,7 +15,7 @@ struct Glyph {
   float advance = 0.0f;          ///< to the next pen position [pixels]
 };
 
-/// The characters of one text height: ASCII, Latin-1, Greek and a few mathematical signs.
+/// The characters of one text height: Latin, Greek and Cyrillic letters, and a few mathematical signs.
 class Font {
  public:
   /// `pixel_height`: from the highest ascender to the lowest descender, 6…256.

@@ -170,6 +170,9 @@ TEST(Font, HasEverySignOfTheOverlay) {
   const Font font(17);
   for (const char32_t c : std::u32string(U"azAZ09°·–−≥%√²³μρζ…"))
     EXPECT_NE(&font.glyph(c), &font.glyph(U'?')) << static_cast<unsigned>(c);
+  // Names of people, too.
+  for (const char32_t c : std::u32string(U"ŽižkaŁódźŞahinȚepeșΆννηЁжикЇжакґ’"))
+    EXPECT_NE(&font.glyph(c), &font.glyph(U'?')) << static_cast<unsigned>(c);
   EXPECT_EQ(&font.glyph(0x4e00), &font.glyph(U'?'));
 }
 
