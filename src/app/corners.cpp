@@ -60,14 +60,18 @@ void draw_axes(const Gui& gui, const Camera& camera, const Box& view, std::span<
   }
 }
 
+Box box_of(const ImGuiWindow& w) {
+  const auto left = static_cast<double>(w.Pos.x), top = static_cast<double>(w.Pos.y);
+  return {left, top, left + static_cast<double>(w.Size.x), top + static_cast<double>(w.Size.y)};
+}
+
 /// Where the labels of runs side by side and of a ghost are in this picture.
 std::vector<Box> label_boxes() {
   std::vector<Box> boxes;
   for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
     const std::string_view name(w->Name);
-    if (!w->Active || !(name.starts_with("##comparison") || name.starts_with("##ghost"))) continue;
-    const auto left = static_cast<double>(w->Pos.x), top = static_cast<double>(w->Pos.y);
-    boxes.push_back({left, top, left + static_cast<double>(w->Size.x), top + static_cast<double>(w->Size.y)});
+    if (w->Active && (name.starts_with("##comparison") || name.starts_with("##ghost")))
+      boxes.push_back(box_of(*w));
   }
   return boxes;
 }
@@ -109,6 +113,10 @@ void draw_corners(const PanelParts& p, const Box& view) {
   taken.push_back(draw_legend(p.gui, "legend/arrows", p.picture.arrow_legend(), above));
   std::vector<Box> legends = taken;
   std::erase_if(legends, [](const Box& box) { return box.right <= box.left; });
+  // A message may be where the readout comes to be.
+  if (const ImGuiWindow* const notice = ImGui::FindWindowByName("##notice");
+      notice && notice->WasActive && p.messages.notice())
+    legends.push_back(box_of(*notice));
   Box below = view;
   for (const Box& label : labels)
     if (label.right > view.centre_x()) below.top = std::max(below.top, label.bottom);
