@@ -171,9 +171,9 @@ Json json_of(const BenchReport& report) {
 
 std::string table_of(const BenchReport& report) {
   std::string text =
-      fmt::format("{}, {} repeats each after {} to warm up, in turn; medians\n{}, {} cores; {} {}\n",
-                  report.scene, report.repeats, report.warm_up, processor_name(),
-                  std::thread::hardware_concurrency(), ASPIC_COMPILER, ASPIC_FLAGS);
+      fmt::format("{}, {} repeat{} each after {} to warm up, in turn; medians\n{}, {} cores; {} {}\n",
+                  report.scene, report.repeats, report.repeats == 1 ? "" : "s", report.warm_up,
+                  processor_name(), std::thread::hardware_concurrency(), ASPIC_COMPILER, ASPIC_FLAGS);
   std::vector<std::string> devices;
   for (const Measurement& m : report.rows) {
     const std::string device = fmt::format("{}: {}\n", m.name, m.device);

@@ -84,7 +84,9 @@ std::string to_text(const RunReport& run) {
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   std::string text = fmt::format("scene        {} ({} particles, {} springs{})\n", scene.name,
                                  model.particle_count(), spring_count(model),
-                                 model.ball_count() > 0 ? fmt::format(", {} balls", model.ball_count()) : "");
+                                 model.ball_count() > 0 ? fmt::format(", {} ball{}", model.ball_count(),
+                                                                      model.ball_count() > 1 ? "s" : "")
+                                                        : "");
   text += fmt::format("backend      {}{}, {} precision{}\n", backend.row->name,
                       backend.force_path.empty() ? "" : ", force path " + backend.force_path,
                       name_of(state.precision),

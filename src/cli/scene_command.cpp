@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -177,6 +181,17 @@ std::string actuators_text(const Model& model) {
                     shortest_share(model), largest_actuation_energy(model));
 }
 
+/// Whether a file's name ends as those of meshes do that other programs read.
+bool is_another_mesh(const std::string& file) {
+  constexpr std::string_view endings[] = {".3mf",  ".blend", ".dae",  ".fbx", ".glb", ".gltf",
+                                          ".msh",  ".off",   ".step", ".stp", ".usd", ".usda",
+                                          ".usdc", ".usdz",  ".vtk",  ".vtu", ".wrl", ".x3d"};
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::find(endings, ending) != std::end(endings);
+}
+
 }  // namespace
 
 Status execute(const SceneImportOptions& options) {
@@ -185,6 +200,11 @@ Status execute(const SceneImportOptions& options) {
     return fail(ErrorCode::usage,
                 "--cells, --height, --up and --pieces are for meshes, and {} is none: those end in .obj, "
                 ".stl or .ply.",
+                printable_line(options.file));
+  if (is_another_mesh(options.file))
+    return fail(ErrorCode::scene_rejected,
+                "{}: meshes are read from .obj, .stl and .ply files; convert it, in Python for example by "
+                "trimesh.load(…, force=\"mesh\").export(\"mesh.ply\").",
                 printable_line(options.file));
   ASPIC_TRY(const auto text, read_file(options.file));
   ASPIC_TRY(const auto imported, import_configuration(text, options.file));

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::string_view ball_key = "ball";
 
-/// The model has a body for each element of a list that makes particles.
+/// The model has a body for each element of a list that makes particles; one that is wrong may make none.
 bool makes_particles(const BodyRow& row, const ModelSettings& settings) {
-  return row.list.size(settings) > 0 && row.counts(settings, 0).particles > 0;
+  return row.list.size(settings) > 0 && (row.pins != nullptr || row.counts(settings, 0).particles > 0);
 }
 
 std::string name_of(std::string_view key, std::uint64_t index) {

@@ -37,6 +37,9 @@ TEST(ImportMesh, SaysWhatIsWrong) {
   EXPECT_EQ(bad.exit_code, 3);
   EXPECT_THAT(bad.err, HasSubstr("bad.stl:6: this facet has 2 corners"));
   EXPECT_EQ(aspic({"scene", "import", dir.file("none.obj")}).exit_code, 6);
+  const auto other = aspic({"scene", "import", "body.GLB"});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_THAT(other.err, HasSubstr("meshes are read from .obj, .stl and .ply files"));
   const auto cells = aspic({"scene", "import", dir.file("Configuration.txt"), "--cells", "3"});
   EXPECT_EQ(cells.exit_code, 2);
   EXPECT_THAT(cells.err, HasSubstr("are for meshes"));

@@ -44,6 +44,11 @@ TEST(Followed, MayBeNamedAsItNamesItself) {
   EXPECT_FALSE(find_followed(scene.model, "worm").has_value());
   const std::string wrong[] = {"view.follow=legs"};
   EXPECT_THAT(load_scene("worm", wrong).error().message(), testing::HasSubstr("it has worm"));
+  // A body that has something wrong is there all the same.
+  const std::string empty[] = {"voxels[worm].layers=[[\"...\"]]"};
+  EXPECT_THAT(load_scene("worm", empty).error().message(),
+              testing::AllOf(testing::HasSubstr("the body is empty"),
+                             testing::Not(testing::HasSubstr("view.follow"))));
 }
 
 TEST(Followed, KeepsItsMeaningWhereElementsAreRemoved) {
