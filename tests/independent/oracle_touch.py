@@ -1,4 +1,4 @@
-"""Contact between cubes, written from docs/contact.md alone: every triangle is looked at in every evaluation.
+"""Contact between cubes, written from docs/contact.md alone: of every point all candidates are looked at in every evaluation.
 
 Arrays are (particles, 3), (points, 3) and (triangles, 3); one pair of bodies at a time.
 """
@@ -121,43 +121,48 @@ class Touch:
         sight = max(reach, AHEAD * s) if solve else reach
         c = k * self.world.h if solve else c
         A, B = self.surfaces[a], self.surfaces[b]
+        if not self.candidates[a, b].any():
+            return
         P, corners = A.points(x), x[B.triangles]
-        g = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        N = g / np.linalg.norm(g, axis=-1, keepdims=True)
-        eligible = self.candidates[a, b] & (self.normals(A, x) @ g.T < 0)
-        wb, wc, face = nearest(P[:, None], *(corners[None, :, i] for i in range(3)))
-        e = P[:, None] - corners[None, :, 0] - wb[..., None] * (corners[:, 1] - corners[:, 0]) - wc[..., None] * (corners[:, 2] - corners[:, 0])
-        L, z = np.linalg.norm(e, axis=-1), dot(e, N)
-        straight = np.where(face, 1.0, np.abs(z) / np.where(L > 0, L, 1))
+        ab, ac = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        g = np.cross(ab, ac)
+        # From here on one number for each point and each of its triangles, points ascending.
+        points, t = np.nonzero(self.candidates[a, b] & (self.normals(A, x) @ g.T < 0))
+        wb, wc, face = nearest(P[points], *(corners[t, i] for i in range(3)))
+        e = P[points] - corners[t, 0] - wb[:, None] * ab[t] - wc[:, None] * ac[t]
+        N = g[t] / np.linalg.norm(g[t], axis=-1, keepdims=True)
+        L, z, sides = np.linalg.norm(e, axis=-1), dot(e, N), B.sides[t].tolist()
+        straight = np.where(face, 1.0, np.abs(z) / np.where(L > 0, L, 1)).tolist()
+        far, high = L.tolist(), z.tolist()  # single numbers of lists are read faster
 
-        def pick(point, among):
-            least = np.where(among, L[point], np.inf).min()
-            if np.isinf(least):
-                return None
-            near = np.flatnonzero(among & (L[point] <= least + 2e-6 * s))
-            return int(min(near, key=lambda t: (-straight[point, t], L[point, t])))
+        def pick(among):
+            least = min(far[q] for q in among)
+            return min((q for q in among if far[q] <= least + 2e-6 * s), key=lambda q: (-straight[q], far[q]))
 
-        for point in np.flatnonzero(eligible.any(1) & (np.where(eligible, L, np.inf).min(1) <= depth)):
-            first = pick(point, eligible[point])
+        ends = [*np.flatnonzero(np.diff(points, prepend=-1)).tolist(), len(points)]
+        for begin, end in zip(ends, ends[1:]):
+            point, seen = int(points[begin]), range(begin, end)
+            if min(far[begin:end]) > depth:
+                continue
+            first = pick(seen)
             chosen = []
-            if (L[point, first] < sight if z[point, first] >= 0
-                    else L[point, first] <= depth and -z[point, first] >= 0.7 * L[point, first]):
+            if (far[first] < sight if high[first] >= 0 else far[first] <= depth and -high[first] >= 0.7 * far[first]):
                 chosen.append(first)
-            for side in sorted(set(B.sides[eligible[point]]) - {B.sides[first]}):
-                t = pick(point, eligible[point] & (B.sides == side))
-                if 0 <= z[point, t] and L[point, t] < sight and z[point, t] >= 0.9 * L[point, t]:
-                    chosen.append(t)
-            for t in chosen:
-                d = np.copysign(L[point, t], 1 if z[point, t] >= 0 else -1)
-                n = N[t] if face[point, t] or d == 0 else e[point, t] / d
-                d = z[point, t] if face[point, t] else d
-                index = np.concatenate([A.carriers[point], B.triangles[t]])
-                weight = np.concatenate([A.weights[point], -np.array([1 - wb[point, t] - wc[point, t], wb[point, t], wc[point, t]])])
+            for side in sorted(set(sides[begin:end]) - {sides[first]}):
+                q = pick([q for q in seen if sides[q] == side])
+                if 0 <= high[q] and far[q] < sight and high[q] >= 0.9 * far[q]:
+                    chosen.append(q)
+            for q in chosen:
+                d = np.copysign(L[q], 1 if z[q] >= 0 else -1)
+                n = N[q] if face[q] or d == 0 else e[q] / d
+                d = z[q] if face[q] else d
+                index = np.concatenate([A.carriers[point], B.triangles[t[q]]])
+                weight = np.concatenate([A.weights[point], -np.array([1 - wb[q] - wc[q], wb[q], wc[q]])])
                 start = self.eased.get(((a, b), point), np.inf)
-                far = min(reach, start + s * self.steps * self.world.h)
+                reached = min(reach, start + s * self.steps * self.world.h)
                 u = n @ (weight @ v[index])
-                rest = k * (far - d) + (c * u if solve == 2 else 0.0)
-                yield {"pair": (a, b), "point": point, "index": index, "weight": weight, "n": n, "d": d, "reach": far,
+                rest = k * (reached - d) + (c * u if solve == 2 else 0.0)
+                yield {"pair": (a, b), "point": point, "index": index, "weight": weight, "n": n, "d": d, "reach": reached,
                        "push": max(0.0, rest - c * u), "rest": rest, "c": c, "mu": min(A.mu, B.mu)}
 
     def forces(self, x, v, f):
