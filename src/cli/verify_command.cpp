@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "gpu/context.h"
+#include "io/program.h"
 #include "verify/check.h"
 
 namespace aspic::cli {
@@ -105,14 +106,20 @@ Status execute(const VerifyOptions& options) {
   const verify::Subject subject = verify::product(context.get(), program);
 
   const auto started = std::chrono::steady_clock::now();
+  const InterruptGuard interrupt;
   std::vector<Row> rows;
   {
     ProgressBar bar(checks.size(), "check");
-    rows = verify::evaluate_all(checks, subject, [&](std::size_t done) { bar.update(done); });
+    rows = verify::evaluate_all(
+        checks, subject, [&](std::size_t done) { bar.update(done); },
+        [&] { return interrupt.interrupted(); });
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   ASPIC_CHECK(print_rows(options, rows, device, seconds));
 
+  if (rows.size() < checks.size())
+    return fail(ErrorCode::interrupted, "interrupted; {} of {} checks were done.", rows.size(),
+                checks.size());
   const std::size_t failed = count(rows, Verdict::failed), not_run = count(rows, Verdict::not_run);
   if (failed > 0) return fail(ErrorCode::check_failed, "{} of {} checks failed.", failed, rows.size());
   if (not_run > 0 && options.require_gpu) {

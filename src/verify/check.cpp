@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -98,14 +99,19 @@ Row evaluate(const Check& check, const Subject& subject) {
 }
 
 std::vector<Row> evaluate_all(const std::vector<Check>& checks, const Subject& subject,
-                              const std::function<void(std::size_t)>& finished) {
-  std::vector<Row> rows(checks.size());
+                              const std::function<void(std::size_t)>& finished,
+                              const std::function<bool()>& stopped) {
+  std::vector<std::optional<Row>> rows(checks.size());
   std::mutex mutex;
   std::size_t done = 0;
   const auto run = [&](bool on_device) {
     for (std::size_t i = 0; i < checks.size(); ++i) {
       if (checks[i].needs_gpu != on_device) continue;
-      rows[i] = evaluate(checks[i], subject);
+      if (stopped()) return;
+      Row row = evaluate(checks[i], subject);
+      // What was stopped, processes that it started among it, says nothing.
+      if (stopped()) return;
+      rows[i] = std::move(row);
       const std::lock_guard lock(mutex);
       finished(++done);
     }
@@ -113,7 +119,10 @@ std::vector<Row> evaluate_all(const std::vector<Check>& checks, const Subject& s
   std::thread without_device([&] { run(false); });
   run(true);  // the context is current on this thread
   without_device.join();
-  return rows;
+  std::vector<Row> done_rows;
+  for (std::optional<Row>& row : rows)
+    if (row) done_rows.push_back(std::move(*row));
+  return done_rows;
 }
 
 Finding at_most(double figure, double bound, std::string_view unit) {

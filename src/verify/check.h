@@ -72,9 +72,12 @@ Result<std::vector<Check>> select(std::vector<Check> checks, std::span<const std
 Row evaluate(const Check& check, const Subject& subject);
 
 /// Runs checks, those without a device on a second thread; rows come in the checks' order. `finished` is
-/// called after each, from one thread at a time, with the number of rows done.
-std::vector<Row> evaluate_all(const std::vector<Check>& checks, const Subject& subject,
-                              const std::function<void(std::size_t)>& finished);
+/// called after each, from one thread at a time, with the number of rows done. Once `stopped`, which any
+/// thread may call, returns true, no further check begins, and what has not ended has no row.
+std::vector<Row> evaluate_all(
+    const std::vector<Check>& checks, const Subject& subject,
+    const std::function<void(std::size_t)>& finished,
+    const std::function<bool()>& stopped = [] { return false; });
 
 /// A figure that must not exceed its bound. NaN fails.
 Finding at_most(double figure, double bound, std::string_view unit = "");

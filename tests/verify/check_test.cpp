@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <set>
 
@@ -87,6 +88,20 @@ TEST(Evaluate, AllRowsComeInOrderAndAreCounted) {
   EXPECT_EQ(rows[1].verdict, Verdict::not_run);
   EXPECT_EQ(rows[2].verdict, Verdict::failed);
   EXPECT_THAT(counted, testing::ElementsAre(1, 2, 3));
+}
+
+TEST(Evaluate, WhatHadNotEndedWhenAllWasStoppedHasNoRow) {
+  std::atomic<bool> stopped = false;
+  Check last = check_that("b", true);
+  last.run = [&](const Subject&) -> Result<Finding> {
+    stopped = true;
+    return Finding{false, "it lost its processes"};
+  };
+  const auto rows = evaluate_all(
+      {check_that("a", true), last, check_that("c", true)}, product(nullptr, ""), [](std::size_t) {},
+      [&] { return stopped.load(); });
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].name, "a");
 }
 
 TEST(AtMost, NotANumberFails) {
