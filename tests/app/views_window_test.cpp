@@ -43,7 +43,7 @@ const std::vector<View>& views() {
                                         {"heap", 700},
                                         {"squeeze", 900},
                                         {"jelly-in-net", 900},
-                                        {"knot", 900},
+                                        {"knot", 1125},
                                         {"course-2021-plane", 1250},
                                         {"course-2021-tilted-plane", 1050},
                                         {"course-2021-sphere", 900},

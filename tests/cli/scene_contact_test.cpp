@@ -30,6 +30,11 @@ TEST(SceneContact, IsToldOfBodiesThatMayTouch) {
   EXPECT_THAT(one.out, AllOf(Not(HasSubstr("contact")), HasSubstr("time step")));
 }
 
+TEST(SceneContact, WarnsOfNoBuiltInScene) {
+  for (const char* scene : {"cubes-stack", "cubes-tower", "heap", "squeeze", "jelly-in-net", "knot"})
+    EXPECT_EQ(aspic({"scene", "check", scene}).err, "") << scene;
+}
+
 TEST(SceneContact, IsInTheJson) {
   const auto check = aspic({"scene", "check", "cubes-stack", "--json", "--set", "cube[1].position=[0,6,0]"});
   const auto json = nlohmann::json::parse(check.out)["contact"];

@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
         Shot{"cube-plane", 1500}, Shot{"cube-tilted-plane", 1300}, Shot{"cube-sphere", 1000},
         Shot{"cube-bowl", 1300}, Shot{"cube-torus", 1200}, Shot{"cube-hole", 1500}, Shot{"elevator", 2600},
         Shot{"cubes-stack", 1000}, Shot{"cubes-tower", 150}, Shot{"heap", 1300}, Shot{"squeeze", 1900},
-        Shot{"jelly-in-net", 1000}, Shot{"knot", 5000}, Shot{"large-cube", 0}, Shot{"goal-net", 300},
+        Shot{"jelly-in-net", 1000}, Shot{"knot", 6250}, Shot{"large-cube", 0}, Shot{"goal-net", 300},
         Shot{"penalty", 1080}, Shot{"cube-and-balls", 700}, Shot{"ball-pit", 4000}, Shot{"flag", 2400},
         Shot{"curtain", 1000}, Shot{"bridge", 700}, Shot{"swing", 900}, Shot{"jelly-figure", 1500},
         Shot{"worm", 1100}, Shot{"walker", 2100}, Shot{"worm", 1100, {"view.colour=actuation"}, "actuation"},
