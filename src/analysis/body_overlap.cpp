@@ -106,6 +106,14 @@ class Skin {
   std::vector<Block> blocks_;
 };
 
+/// How far the deepest of these places within it is from a surface [m]; 0 if there are none.
+double deepest_of(const Skin& skin, const std::vector<Vector>& within) {
+  double deepest = 0.0;
+  for (std::size_t n = 0; n < within.size(); n += stride_of(within.size(), most_measured))
+    deepest = std::max(deepest, skin.distance(within[n], no_bound));
+  return deepest;
+}
+
 BodyOverlap& pair_of(std::vector<BodyOverlap>& overlaps, std::uint32_t a, std::uint32_t b) {
   const std::uint32_t low = std::min(a, b), high = std::max(a, b);
   for (BodyOverlap& each : overlaps)
@@ -169,8 +177,7 @@ void DeepPoints::take(const State& state, const Boxes& boxes, std::uint32_t a, s
   if (deep.empty()) return;
   BodyOverlap& overlap = pair_of(found, points.body, faces.body);
   overlap.most = D;
-  for (std::size_t n = 0; n < deep.size(); n += stride_of(deep.size(), most_measured))
-    overlap.deepest = std::max(overlap.deepest, skin.distance(deep[n], no_bound));
+  overlap.deepest = std::max(overlap.deepest, deepest_of(skin, deep));
 }
 
 namespace {
@@ -180,10 +187,7 @@ double deepest_within(const Skin& skin, const std::vector<Vector>& places) {
   std::vector<Vector> within;
   for (std::size_t n = 0; n < places.size(); n += stride_of(places.size(), most_tried))
     if (skin.holds(places[n])) within.push_back(places[n]);
-  double deepest = 0.0;
-  for (std::size_t n = 0; n < within.size(); n += stride_of(within.size(), most_measured))
-    deepest = std::max(deepest, skin.distance(within[n], no_bound));
-  return deepest;
+  return deepest_of(skin, within);
 }
 
 /// Particles of one body within another, those inside of it, too: where bodies are nearly in one place, all

@@ -100,9 +100,7 @@ Box draw_clock(const Gui& gui, const Simulation& simulation, const Box& view) {
 }  // namespace
 
 Box window_box() {
-  const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  const auto left = static_cast<double>(corner.x), top = static_cast<double>(corner.y);
-  return {left, top, left + static_cast<double>(size.x), top + static_cast<double>(size.y)};
+  return box_of(*ImGui::GetCurrentWindowRead());
 }
 
 void draw_corners(const PanelParts& p, const Box& view) {

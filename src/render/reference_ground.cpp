@@ -26,7 +26,7 @@ void ReferenceGround::draw(const ViewSettings& view, const Camera& lens) const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  // In front of a terrain that is as high: neither would be all before the other.
+  // Before a terrain that is as high: rounding would decide pixel by pixel which of the two is seen.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(-2.0f, -256.0f);
   glUseProgram(program_.id());
