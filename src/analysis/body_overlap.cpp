@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -204,25 +205,35 @@ void add_particles_within(const Model& model, const State& state, const TouchSur
     Eigen::AlignedBox3d& box = boxes.emplace_back();
     for_particles(each, [&](const Vector& x) { box.extend(x); });
   }
-  for (std::size_t b = 0; b < surfaces.bodies.size(); ++b) {
-    const TouchBody& faces = surfaces.bodies[b];
-    std::optional<Skin> skin;
-    for (std::size_t a = 0; faces.closed && a < surfaces.bodies.size(); ++a) {
-      const TouchBody& points = surfaces.bodies[a];
-      if (points.body == faces.body || !boxes[a].intersects(boxes[b])) continue;
-      std::vector<Vector> places;
-      for_particles(points, [&](const Vector& x) {
-        if (boxes[b].contains(x)) places.push_back(x);
-      });
-      if (places.empty()) continue;
-      if (!skin)
-        skin.emplace(std::span(surfaces.triangles).subspan(faces.first_triangle, faces.triangle_count),
-                     state);
-      const double deepest = deepest_within(*skin, places);
-      if (!(deepest > 0.0)) continue;
-      BodyOverlap& overlap = pair_of(overlaps, points.body, faces.body);
-      overlap.most = std::max(overlap.most, touch_pair(model.contact, points, faces, false).depth);
-      overlap.deepest = std::max(overlap.deepest, deepest);
+  std::vector<std::optional<Skin>> skins(surfaces.bodies.size());
+  const auto add = [&](std::size_t a, std::size_t b) {
+    const TouchBody &points = surfaces.bodies[a], &faces = surfaces.bodies[b];
+    if (points.body == faces.body || !faces.closed) return;
+    std::vector<Vector> places;
+    for_particles(points, [&](const Vector& x) {
+      if (boxes[b].contains(x)) places.push_back(x);
+    });
+    if (places.empty()) return;
+    if (!skins[b])
+      skins[b].emplace(std::span(surfaces.triangles).subspan(faces.first_triangle, faces.triangle_count),
+                       state);
+    const double deepest = deepest_within(*skins[b], places);
+    if (!(deepest > 0.0)) return;
+    BodyOverlap& overlap = pair_of(overlaps, points.body, faces.body);
+    overlap.most = std::max(overlap.most, touch_pair(model.contact, points, faces, false).depth);
+    overlap.deepest = std::max(overlap.deepest, deepest);
+  };
+  // Along x: of many bodies few are beside each other.
+  std::vector<std::size_t> along(boxes.size());
+  std::iota(along.begin(), along.end(), std::size_t{0});
+  std::ranges::sort(along, {}, [&](std::size_t n) { return boxes[n].min().x(); });
+  for (std::size_t n = 0; n < along.size(); ++n) {
+    for (std::size_t m = n + 1; m < along.size(); ++m) {
+      const std::size_t a = along[n], b = along[m];
+      if (boxes[b].min().x() > boxes[a].max().x()) break;
+      if (!boxes[a].intersects(boxes[b])) continue;
+      add(a, b);
+      add(b, a);
     }
   }
 }
