@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/flush_denormals.h"
+
 namespace aspic::app {
 namespace {
 
@@ -42,6 +44,7 @@ bool on_a_monitor(const std::array<int, 2>& position) {
 
 Result<std::unique_ptr<Window>> Window::create(int width, int height, const std::string& title,
                                                const std::optional<std::array<int, 2>>& position) {
+  const FlushDenormals flush;  // the driver's threads inherit it
   std::unique_ptr<Window> w(new Window);
   if (!glfwInit()) {
     const bool named = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");

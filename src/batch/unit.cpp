@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/flush_denormals.h"
 #include "base/result.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_parallel/stack.h"
@@ -93,6 +94,7 @@ class Stacked final : public Unit {
   void set_stop_flag(const std::atomic<bool>* flag) override { flag_ = flag; }
 
   Status advance(std::uint64_t steps) override {
+    const FlushDenormals flush;
     for (std::uint64_t n = 0; n < steps && stack_.any_runs(); ++n) {
       if (flag_ && flag_->load(std::memory_order_relaxed)) break;
       stack_.advance();

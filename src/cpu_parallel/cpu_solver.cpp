@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/flush_denormals.h"
 #include "cpu_parallel/contact_pieces.h"
 #include "cpu_parallel/kernels.h"
 #include "cpu_parallel/steps.h"
@@ -85,6 +86,7 @@ class CpuSolver final : public Solver {
   }
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
+    const FlushDenormals flush;
     for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) step();
     return divergence_;
   }

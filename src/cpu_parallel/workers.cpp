@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "base/flush_denormals.h"
 #include "base/printable.h"
 
 namespace aspic::parallel {
@@ -116,6 +117,7 @@ void Workers::take_pieces() {
 }
 
 void Workers::work(unsigned index) {
+  const FlushDenormals flush;
   number_in_pool = index;
   for (std::uint32_t round = 0;;) {
     wait_while(round_, round);

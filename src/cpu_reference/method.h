@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "aspic/solver.h"
+#include "base/flush_denormals.h"
 #include "cpu_reference/integrators.h"
 #include "model/implicit.h"
 #include "model/integrator.h"
@@ -41,12 +42,13 @@ KindRow<T> kind_row(MethodKind kind);
 /// A reference solver at the model's initial state, with methods of this kind whatever the model's integrator
 /// is. make_reference_solver() calls it with the kind of that integrator.
 template <class T>
-std::unique_ptr<Solver> solver_with(const KindRow<T>& kind, SharedModel model);
+std::unique_ptr<Solver> solver_with(const KindRow<T>& kind, SharedModel model,
+                                    Denormals denormals = Denormals::flushed);
 
 // Compiled once, in method.cpp and reference_solver.cpp.
 extern template KindRow<float> kind_row(MethodKind);
 extern template KindRow<double> kind_row(MethodKind);
-extern template std::unique_ptr<Solver> solver_with(const KindRow<float>&, SharedModel);
-extern template std::unique_ptr<Solver> solver_with(const KindRow<double>&, SharedModel);
+extern template std::unique_ptr<Solver> solver_with(const KindRow<float>&, SharedModel, Denormals);
+extern template std::unique_ptr<Solver> solver_with(const KindRow<double>&, SharedModel, Denormals);
 
 }  // namespace aspic::reference

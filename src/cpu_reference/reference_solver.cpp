@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/flush_denormals.h"
 #include "base/out_of_memory.h"
 #include "base/result.h"
 #include "cpu_reference/balls.h"
@@ -36,8 +37,9 @@ KindRow<T> kind_of(const Model& model) {
 template <class T>
 class ReferenceSolver final : public Solver {
  public:
-  ReferenceSolver(const KindRow<T>& kind, SharedModel model)
+  ReferenceSolver(const KindRow<T>& kind, SharedModel model, Denormals denormals)
       : kind_(kind),
+        denormals_(denormals),
         reports_solves_(row_of(model->simulation.integrator).traits.reports_solves),
         parts_(std::make_unique<Parts>(kind, std::move(model))) {
     const State start = initial_state(this->model(), precision());
@@ -59,6 +61,8 @@ class ReferenceSolver final : public Solver {
   }
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
+    std::optional<FlushDenormals> flush;
+    if (denormals_ == Denormals::flushed) flush.emplace();
     for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) {
       SolveReport report;
       const Field<T> before = hold_pins();
@@ -165,6 +169,7 @@ class ReferenceSolver final : public Solver {
   };
 
   const KindRow<T> kind_;
+  const Denormals denormals_;
   const bool reports_solves_;
   std::unique_ptr<Parts> parts_;
   SolveStatistics statistics_;
@@ -178,18 +183,20 @@ class ReferenceSolver final : public Solver {
 }  // namespace
 
 template <class T>
-std::unique_ptr<Solver> solver_with(const KindRow<T>& kind, SharedModel model) {
-  return std::make_unique<ReferenceSolver<T>>(kind, std::move(model));
+std::unique_ptr<Solver> solver_with(const KindRow<T>& kind, SharedModel model, Denormals denormals) {
+  return std::make_unique<ReferenceSolver<T>>(kind, std::move(model), denormals);
 }
-template std::unique_ptr<Solver> solver_with(const KindRow<float>&, SharedModel);
-template std::unique_ptr<Solver> solver_with(const KindRow<double>&, SharedModel);
+template std::unique_ptr<Solver> solver_with(const KindRow<float>&, SharedModel, Denormals);
+template std::unique_ptr<Solver> solver_with(const KindRow<double>&, SharedModel, Denormals);
 
 }  // namespace reference
 
-Result<std::unique_ptr<Solver>> make_reference_solver(SharedModel model, Precision precision) {
+Result<std::unique_ptr<Solver>> make_reference_solver(SharedModel model, Precision precision,
+                                                      Denormals denormals) {
   const auto made = [&]() -> Result<std::unique_ptr<Solver>> {
-    if (precision == Precision::single) return solver_with(reference::kind_of<float>(*model), model);
-    return solver_with(reference::kind_of<double>(*model), model);
+    if (precision == Precision::single)
+      return solver_with(reference::kind_of<float>(*model), model, denormals);
+    return solver_with(reference::kind_of<double>(*model), model, denormals);
   };
   return unless_out_of_memory(made, [&]() -> Result<std::unique_ptr<Solver>> {
     return fail(

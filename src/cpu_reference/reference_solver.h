@@ -5,13 +5,15 @@
 #include <utility>
 
 #include "aspic/solver.h"
+#include "base/flush_denormals.h"
 #include "model/model.h"
 
 namespace aspic {
 
 /// A reference solver at the model's initial state, in single or double precision. Error (scene_rejected):
 /// there is no memory left for its fields.
-Result<std::unique_ptr<Solver>> make_reference_solver(SharedModel model, Precision precision);
+Result<std::unique_ptr<Solver>> make_reference_solver(SharedModel model, Precision precision,
+                                                      Denormals denormals = Denormals::flushed);
 /// With a model of its own: a copy, or what is moved here.
 inline Result<std::unique_ptr<Solver>> make_reference_solver(Model model, Precision precision) {
   return make_reference_solver(shared(std::move(model)), precision);

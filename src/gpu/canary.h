@@ -25,7 +25,7 @@ struct CanaryOperands {
 /// The same cases on every machine: all finite, b ≠ 0.
 std::vector<CanaryOperands> canary_operands();
 
-/// What one operation gave against IEEE single precision, round to nearest even.
+/// What one operation gave against IEEE single precision, round to nearest even, denormal numbers flushed.
 struct OperationCheck {
   std::string_view name;      ///< "quotients a / b"
   std::uint32_t checked = 0;  ///< cases compared
@@ -40,7 +40,7 @@ struct OperationCheck {
 };
 
 /// What the canary found. Cases with a denormal operand, intermediate or result count under `denormals`
-/// alone: a device that flushes them may still be exact everywhere else.
+/// alone: a device that keeps them may still be exact everywhere else.
 struct ArithmeticReport {
   OperationCheck quotient{"quotients a / b"};
   OperationCheck reciprocal{"reciprocals 1 / b"};
@@ -56,7 +56,7 @@ struct ArithmeticReport {
   bool sqrt_exact() const { return root.exact(); }
   bool products_uncontracted() const { return product_sum.exact() && vector_sum.exact(); }
   bool basics_exact() const { return product.exact() && sum.exact(); }
-  bool denormals_kept() const { return denormals.exact(); }
+  bool denormals_flushed() const { return denormals.exact(); }
   /// Same bits as the reference wherever no denormal occurs.
   bool all_exact() const {
     return division_exact() && sqrt_exact() && products_uncontracted() && basics_exact();

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "base/flush_denormals.h"
 #include "base/memory.h"
 #include "base/printable.h"
 #include "gpu/context.h"
@@ -276,6 +277,7 @@ Result<std::shared_ptr<Context>> Context::create_on(const EglCandidate& candidat
 }
 
 Result<std::shared_ptr<Context>> Context::create_headless(const ContextOptions& options) {
+  const FlushDenormals flush;  // the driver's threads inherit it
   if (const std::string missing = missing_resource(); !missing.empty()) {
     return advised({ErrorCode::no_device, missing + "."},
                    {advice("raise it"), {RemedyKind::draw_nothing, {"cpu"}}});

@@ -1,5 +1,6 @@
 #pragma once
 // Which context the calls of this thread go to.
+#include "base/flush_denormals.h"
 #include "base/result.h"
 #include "gpu/context.h"
 
@@ -7,7 +8,8 @@ namespace aspic::gl {
 
 /// Makes a context current for as long as it lives, and then the one that was current before. Nothing but a
 /// comparison happens where the context is current already. Every public call of what owns objects of OpenGL
-/// begins with one, so that any number of solvers and pictures may be used in turn.
+/// begins with one, so that any number of solvers and pictures may be used in turn. Denormal numbers are
+/// flushed meanwhile, on the host and by software rasterizers that compute on this thread.
 class Current {
  public:
   explicit Current(Context& context) : status_(context.enter(before_)) {}
@@ -21,6 +23,7 @@ class Current {
   const Status& status() const { return status_; }
 
  private:
+  FlushDenormals flush_;
   Context::Place before_;  // before status_, which fills it in
   Status status_;
 };

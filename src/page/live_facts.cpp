@@ -132,7 +132,9 @@ Json live_facts(const Scene& scene) {
   }
   // For one method alone.
   groups.push_back({{"title", "implicit Euler"}, {"open", false}, {"rows", solve}});
-  return {{"keys", to_key_lines(scene)}, {"controls", groups}};
+  // Denormal numbers, which browsers keep, come up where a body lies in a plane.
+  const bool sheets = !scene.model.cloths.empty() || !scene.model.goal_nets.empty();
+  return {{"keys", to_key_lines(scene)}, {"controls", groups}, {"sheets", sheets}};
 }
 
 }  // namespace aspic::page

@@ -19,7 +19,8 @@ Status check_live(Precision precision, Arithmetic arithmetic, bool inputs);
 
 /// The keys of the scene (scene/key_lines.h), and in groups the rows of the parameter table that a reader may
 /// change: those that are live and have a say in the motion, but for the places of terrain, whose surfaces
-/// the page holds.
+/// the page holds. `sheets`: there are cloths or nets, with which browsers can get other bits
+/// (docs/determinism.md, "Denormal numbers").
 nlohmann::ordered_json live_facts(const Scene& scene);
 
 }  // namespace aspic::page

@@ -130,7 +130,7 @@ Status BitComparison::add(const Model& model, const std::function<Result<State>(
 /// Of a run of so many steps that differs, on a device.
 Status BitComparison::bound(const Model& model, GpuSolver& gpu, std::uint64_t steps) {
   const gl::Arithmetic& arithmetic = gpu.arithmetic();
-  if (arithmetic.exact() && arithmetic.device.denormals_kept()) {
+  if (arithmetic.exact() && arithmetic.device.denormals_flushed()) {
     share_ = std::numeric_limits<double>::infinity();
     return {};
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/flush_denormals.h"
 #include "gpu/canary.h"
 #include "gpu/pass.h"
 #include "support/gl_fixture.h"
@@ -45,7 +46,7 @@ TEST_F(CanaryGl, FindsTheSoftwareDeviceExact) {
   auto choice = choose_arithmetic(context(), ShaderLibrary());
   ASSERT_TRUE(choice.ok()) << choice.error().message();
   EXPECT_TRUE(choice->exact());
-  EXPECT_TRUE(choice->device.denormals_kept());
+  EXPECT_TRUE(choice->device.denormals_flushed());
   EXPECT_TRUE(choice->defines.empty());
   EXPECT_FALSE(choice->corrected.has_value());
   for (const OperationCheck* check :
@@ -73,16 +74,16 @@ TEST_F(CanaryGl, FindsRootsThatAreOneUnitOff) {
   EXPECT_EQ(report.root.ulps, 1u);
 }
 
-TEST_F(CanaryGl, FindsContractionFlushingAndWrongSums) {
+TEST_F(CanaryGl, FindsContractionDenormalsAndWrongSums) {
   const ArithmeticReport contracted = measure({{"FAULT_CONTRACTION", "1"}});
   EXPECT_FALSE(contracted.products_uncontracted());
   EXPECT_TRUE(contracted.division_exact() && contracted.sqrt_exact() && contracted.basics_exact());
   const ArithmeticReport vectors = measure({{"FAULT_VECTOR", "1"}});
   EXPECT_FALSE(vectors.products_uncontracted());
   EXPECT_TRUE(vectors.product_sum.exact());
-  const ArithmeticReport flushed = measure({{"FAULT_FLUSH", "1"}});
-  EXPECT_FALSE(flushed.denormals_kept());
-  EXPECT_TRUE(flushed.all_exact());
+  const ArithmeticReport kept = measure({{"FAULT_KEEP", "1"}});
+  EXPECT_FALSE(kept.denormals_flushed());
+  EXPECT_TRUE(kept.all_exact());
   const ArithmeticReport sums = measure({{"FAULT_SUM", "1"}});
   EXPECT_FALSE(sums.basics_exact());
 }
@@ -99,8 +100,8 @@ TEST_F(CanaryGl, CorrectedFormsAreExactFromWrongStarts) {
     EXPECT_TRUE(defines(choice, "ASPIC_CORRECT_SQRT"));
     ASSERT_TRUE(choice.corrected.has_value());
     EXPECT_TRUE(choice.exact());
-    // The corrected forms keep denormal operands and results, rounded once.
-    EXPECT_TRUE(choice.corrected->denormals_kept()) << choice.corrected->denormals.operands[0];
+    // The corrected forms read denormal operands as zero and return zero in place of denormal results.
+    EXPECT_TRUE(choice.corrected->denormals_flushed()) << choice.corrected->denormals.operands[0];
     for (const OperationCheck* check :
          {&choice.corrected->quotient, &choice.corrected->reciprocal, &choice.corrected->root})
       EXPECT_EQ(check->wrong, 0u) << check->name << " of " << check->operands[0] << ", " << check->operands[1]
@@ -135,6 +136,7 @@ TEST_F(CanaryGl, CorrectedFormsKeepTheMeaningOfSpecialValues) {
     return (std::isnan(x) && std::isnan(y)) ||
            std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
   };
+  const FlushDenormals flush;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto [a, b] = pairs[i];
     EXPECT_TRUE(same(got[i][0], a / b)) << a << " / " << b << " gave " << got[i][0];

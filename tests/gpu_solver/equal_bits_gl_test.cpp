@@ -81,10 +81,12 @@ class EqualBitsInFull : public EqualBits {
   EqualBitsInFull() { split_ = false; }
 };
 
-void expect_golden_end(gl::Context& context, const test::GoldenRun& run) {
+void expect_golden_end(gl::Context& context, const test::GoldenRun& run, bool split = false) {
   SCOPED_TRACE(run.scene);
   const Model model = run.model();
-  auto solver = make_gpu_solver(context, model);
+  GpuOptions options;
+  options.split_stages = split;
+  auto solver = make_gpu_solver(context, model, options);
   ASSERT_TRUE(solver.ok()) << solver.error().message();
   ASSERT_TRUE((*solver)->advance(run.steps).ok());
   test::expect_golden(run, *(*solver)->state());
@@ -108,7 +110,25 @@ TEST_F(EqualBits, CoveringSet) {
 
 // On the path that scenes take.
 TEST_F(EqualBits, BuiltInScenes) {
-  for (const test::GoldenRun& run : test::scene_runs_in_turn()) expect_golden_end(context(), run);
+  const auto split = [](Integrator method) { return method == Integrator::runge_kutta_4; };
+  for (const test::GoldenRun& run : test::core_scene_runs())
+    expect_golden_end(context(), run, split(run.method));
+}
+
+// In nets numbers become denormal, which the H200 flushes and this driver flushes under the guard alone.
+TEST_F(EqualBits, EndsRunsOfNetsWithTheStatesOfAnH200) {
+  int count = 0;
+  for (const test::HardwareRun& run : test::hardware_runs()) {
+    const Model model = run.model();
+    if (!(run.scene.find("net") != std::string::npos || run.scene == "penalty" || run.scene == "course-2018"))
+      continue;
+    ++count;
+    auto solver = make_gpu_solver(context(), model);
+    ASSERT_TRUE(solver.ok()) << solver.error().message();
+    ASSERT_TRUE((*solver)->advance(run.steps).ok());
+    EXPECT_EQ(state_hash_text(*(*solver)->state()), run.hash) << run.text();
+  }
+  EXPECT_EQ(count, 10);
 }
 
 // Browsers end all of these runs with the same states (tests/page/live_browser_test.cpp).

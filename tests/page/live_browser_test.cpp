@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/process.h"
+#include "cpu_reference/reference_solver.h"
 #include "page/builtin_scenes.h"
 #include "page/live_facts.h"
 #include "scene/key_lines.h"
@@ -16,6 +17,15 @@ namespace aspic {
 namespace {
 
 using nlohmann::json;
+
+/// As WebAssembly ends a run, which cannot flush denormal numbers.
+test::GoldenEnd end_with_denormals(const test::GoldenRun& run) {
+  auto solver = make_reference_solver(shared(run.model()), Precision::single, Denormals::kept);
+  EXPECT_TRUE(solver.ok());
+  EXPECT_TRUE((*solver)->advance(run.steps).ok());
+  const State state = *(*solver)->state();
+  return {state.step, state_hash_text(state)};
+}
 
 class LivePagesInBrowsers : public testing::TestWithParam<std::string> {
  protected:
@@ -60,8 +70,10 @@ TEST_P(LivePagesInBrowsers, HaveTheKnownBitsOfEverySceneAndMethod) {
   const json results = json::parse(dir_.read("results.json"));
   ASSERT_EQ(results.size(), known.size());
   for (std::size_t i = 0; i < known.size(); ++i) {
-    const auto end = test::golden_end(known[i]);
+    auto end = test::golden_end(known[i]);
     ASSERT_TRUE(end) << known[i].scene;
+    const ModelSettings settings = known[i].settings();
+    if (!settings.cloths.empty() || !settings.goal_nets.empty()) end = end_with_denormals(known[i]);
     EXPECT_EQ(results[i], json({end->step, end->hash})) << known[i].scene << ", " << name_of(known[i].method);
   }
 }

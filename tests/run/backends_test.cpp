@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cfenv>
 #include <set>
 #include <thread>
 
 #include "aspic/scene.h"
+#include "base/flush_denormals.h"
 #include "run/window_host.h"
 
 namespace aspic {
@@ -119,6 +121,30 @@ TEST(Backends, ASolverSaysWhatItIs) {
   const auto fast = make_backend({.row = find_backend("cpu"), .arithmetic = Arithmetic::fast}, *model);
   ASSERT_TRUE(fast.ok()) << fast.error().message();
   EXPECT_EQ(fast->variant(), "cpu:fast");
+}
+
+// In a net, numbers become denormal within steps.
+TEST(Backends, KeepTheCallersFloatingPointEnvironmentAndNotItsArithmetic) {
+  for (const char* integrator : {"symplectic-euler", "implicit-euler"}) {
+    const std::vector<std::string> set = {fmt::format("simulation.integrator={}", integrator)};
+    const auto model = build_model(load_scene("goal-net", set)->model);
+    ASSERT_TRUE(model.ok());
+    std::set<std::string> hashes;
+    for (const BackendRow& row : backends()) {
+      const auto backend = make_backend({.row = &row, .threads = row.threaded ? 2u : 0u}, *model);
+      ASSERT_TRUE(backend.ok()) << backend.error().message();
+      ASSERT_TRUE(backend->solver->advance(4).ok());
+      std::fesetround(FE_UPWARD);
+      const auto advanced = backend->solver->advance(4);
+      const auto state = backend->solver->state();
+      EXPECT_EQ(std::fegetround(), FE_UPWARD);
+      std::fesetround(FE_TONEAREST);
+      EXPECT_FALSE(flushes_denormals());
+      ASSERT_TRUE(advanced.ok() && state.ok());
+      hashes.insert(state_hash_text(*state));
+    }
+    EXPECT_EQ(hashes.size(), 1u);
+  }
 }
 
 TEST(Backends, AnInterruptedStepIsDroppedAndTheRunGoesOnWithItsBits) {

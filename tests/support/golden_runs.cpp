@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <utility>
 
 #include "aspic/scene.h"
@@ -97,12 +100,19 @@ std::vector<GoldenRun> scene_runs() {
   return runs;
 }
 
-std::vector<GoldenRun> scene_runs_in_turn() {
+std::vector<GoldenRun> core_scene_runs() {
+  constexpr Integrator always[] = {Integrator::explicit_euler, Integrator::runge_kutta_4,
+                                   Integrator::implicit_euler};
   std::vector<GoldenRun> runs;
+  std::size_t turn = 0;
   for (const BuiltinScene& scene : list_builtin_scenes()) {
-    const std::size_t turn = runs.size();
-    runs.push_back(golden_run(std::string(scene.name), contact_models[turn / 2 % 2].value,
-                              all_integrators[turn % all_integrators.size()]));
+    const std::string name(scene.name);
+    for (const Integrator method : always) runs.push_back(golden_run(name, ContactModel::coulomb, method));
+    const Integrator other = all_integrators[turn % all_integrators.size()];
+    const ContactModel contact = contact_models[turn / 2 % 2].value;
+    if (contact != ContactModel::coulomb || std::ranges::find(always, other) == std::end(always))
+      runs.push_back(golden_run(name, contact, other));
+    ++turn;
   }
   return runs;
 }
@@ -114,6 +124,35 @@ std::vector<GoldenRun> case_runs() {
   for (const KernelVariant& variant : kernel_variants()) add(golden_run(variant));
   std::vector<GoldenRun> runs;
   for (auto& [key, run] : once) runs.push_back(std::move(run));
+  return runs;
+}
+
+std::string HardwareRun::text() const {
+  return fmt::format("{}, {}, {} steps", scene, name_of(method), steps);
+}
+
+Model HardwareRun::model() const {
+  auto loaded = load_scene(scene);
+  EXPECT_TRUE(loaded.ok());
+  loaded->model.simulation.integrator = method;
+  return build(loaded->model);
+}
+
+std::vector<HardwareRun> hardware_runs() {
+  std::ifstream in(ASPIC_HARDWARE_HASHES);
+  std::vector<HardwareRun> runs;
+  std::string line;
+  std::getline(in, line);
+  EXPECT_TRUE(line.starts_with("scene,integrator,steps,backend,state_hash")) << ASPIC_HARDWARE_HASHES;
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    std::string scene, method, steps, backend, hash;
+    for (std::string* cell : {&scene, &method, &steps, &backend, &hash}) std::getline(cells, *cell, ',');
+    const auto found =
+        std::ranges::find_if(all_integrators, [&](Integrator each) { return name_of(each) == method; });
+    EXPECT_NE(found, all_integrators.end()) << line;
+    if (found != all_integrators.end()) runs.push_back({scene, *found, std::stoull(steps), hash});
+  }
   return runs;
 }
 

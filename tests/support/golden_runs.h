@@ -33,8 +33,9 @@ GoldenRun golden_run(const std::string& builtin_scene, ContactModel contact, Int
 
 /// Every built-in scene with every contact model.
 std::vector<GoldenRun> scene_runs();
-/// Of these, one of every built-in scene: methods and contact models take turns.
-std::vector<GoldenRun> scene_runs_in_turn();
+/// Of these, every built-in scene under explicit Euler, Runge-Kutta 4 and implicit Euler with Coulomb's
+/// contact, and one under another method or with the course's contact, which take turns.
+std::vector<GoldenRun> core_scene_runs();
 /// Those of the covering set and of the kernel variants, each once.
 std::vector<GoldenRun> case_runs();
 
@@ -55,6 +56,19 @@ std::optional<GoldenEnd> golden_end(const GoldenRun& run);
 /// Fails the test unless the state is the one that the file tells of. Then the reference runs, to say who
 /// differs.
 void expect_golden(const GoldenRun& run, const State& state);
+
+/// A run of a built-in scene on an NVIDIA H200 (bench/results/h200/hashes.csv), with the hash of its last
+/// state.
+struct HardwareRun {
+  std::string scene;
+  Integrator method;
+  std::uint64_t steps;
+  std::string hash;
+
+  std::string text() const;
+  Model model() const;
+};
+std::vector<HardwareRun> hardware_runs();
 
 /// The text of a file with these runs.
 std::string golden_text(const std::vector<GoldenRun>& runs);

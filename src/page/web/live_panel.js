@@ -130,7 +130,8 @@ class LivePanel {
 
   said(same, other) {
     const { recording } = this, count = (n) => `${n} picture${n === 1 ? "" : "s"}`;
-    if (other !== null) return `Other bits than on the machine that made this page, from step ${other} on.`;
+    const why = recording.live.sheets ? " Browsers keep denormal numbers, which Aspic sets to zero; they occur in nets and cloth." : "";
+    if (other !== null) return `Other bits than on the machine that made this page, from step ${other} on.${why}`;
     if (!recording.changed) return `The same bits as on the machine that made this page, in ${same === recording.machine.steps.length ? "all" : "the first"} ${count(same)}.`;
     return `Changed at ${recording.times[Math.min(recording.changedFrom, recording.times.length - 1)].toFixed(3)} s; until then the same bits as on the machine that made this page.`;
   }

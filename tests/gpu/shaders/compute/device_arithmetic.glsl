@@ -2,7 +2,7 @@
 //   FAULT_DIV, FAULT_SQRT   units in the last place that are added to every quotient, every root
 //   FAULT_CONTRACTION       a·b + c is rounded once
 //   FAULT_VECTOR            the same, of vectors alone
-//   FAULT_FLUSH             denormal products become zero
+//   FAULT_KEEP              denormal products do not become zero
 //   FAULT_SUM               units in the last place that are added to every sum
 float nudged(float x, int ulps) {
   uint bits = floatBitsToUint(x);
@@ -33,8 +33,9 @@ float device_sqrt(float x) {
 
 float device_mul(float a, float b) {
   precise float product = a * b;
-#ifdef FAULT_FLUSH
-  if ((floatBitsToUint(product) & 0x7f800000u) == 0u) return uintBitsToFloat(floatBitsToUint(product) & 0x80000000u);
+#ifdef FAULT_KEEP
+  precise double kept = abs(double(a) * double(b));
+  if (kept > 1.5e-45lf && kept < 1.1e-38lf) return uintBitsToFloat(floatBitsToUint(product) | 1u);
 #endif
   return product;
 }
