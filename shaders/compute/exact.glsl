@@ -3,7 +3,7 @@
 //   ASPIC_FUSED_FMA                        fma rounds once, so that it gives exact residuals; else double does
 // Correction: a Newton step from the device's value, then of it and its neighbour on the side of the exact value the one
 // with the smaller residual (Markstein, IBM J. Res. Dev. 34, 1990). Mantissas alone are divided, exponents are added as integers, so
-// that neither a huge divisor nor a denormal result comes in the way.
+// that neither a huge divisor nor a denormal result comes in the way. Denormal numbers count as zero (docs/determinism.md).
 #include "compute/device_arithmetic.glsl"
 
 #if defined(ASPIC_CORRECT_DIV) || defined(ASPIC_CORRECT_SQRT)
@@ -18,33 +18,24 @@ float residual(float a, float c, float b) {
 #endif
 }
 
-// Splits a finite, positive number, given by its bits: mantissa in [1, 2) and exponent, denormals included.
+// Splits a normal, positive number, given by its bits: mantissa in [1, 2) and exponent.
 float split(uint bits, out int exponent) {
-  uint fraction = bits & 0x7fffffu;
   exponent = int(bits >> 23) - 127;
-  if (exponent == -127) {
-    int shift = 23 - findMSB(fraction);
-    fraction = (fraction << shift) & 0x7fffffu;
-    exponent = -126 - shift;
-  }
-  return uintBitsToFloat(fraction | 0x3f800000u);
+  return uintBitsToFloat((bits & 0x7fffffu) | 0x3f800000u);
 }
 
-// Bits of q·2^exponent for a normal positive q, rounded to nearest even; r has the sign of (exact value − q).
-uint join(float q, int exponent, float r) {
+// Bits of q·2^exponent for a normal positive q; zero in place of a denormal number.
+uint join(float q, int exponent) {
   uint bits = floatBitsToUint(q);
   int biased = int(bits >> 23) + exponent;
   if (biased >= 255) return 0x7f800000u;
-  uint fraction = bits & 0x7fffffu;
-  if (biased >= 1) return (uint(biased) << 23) | fraction;
-  if (biased < -24) return 0u;
-  uint whole = fraction | 0x800000u;
-  int shift = 1 - biased;
-  uint kept = whole >> shift;
-  uint rest = whole & ((1u << shift) - 1u);
-  uint tie = 1u << (shift - 1);
-  bool up = rest > tie || (rest == tie && (r > 0.0 || (r == 0.0 && (kept & 1u) == 1u)));
-  return up ? kept + 1u : kept;
+  if (biased < 1) return 0u;
+  return (uint(biased) << 23) | (bits & 0x7fffffu);
+}
+
+// Whether |x|, given by its bits, is zero, denormal, infinite or no number.
+bool special(uint bits) {
+  return bits < 0x00800000u || bits >= 0x7f800000u;
 }
 
 // The neighbour of a positive q on the side of the exact value, which r has the sign of.
@@ -69,7 +60,7 @@ float exact_div(float a, float b) {
   uint sign = (a_bits ^ b_bits) & 0x80000000u;
   a_bits &= 0x7fffffffu;
   b_bits &= 0x7fffffffu;
-  if (a_bits == 0u || b_bits == 0u || a_bits >= 0x7f800000u || b_bits >= 0x7f800000u) return device_div(a, b);
+  if (special(a_bits) || special(b_bits)) return device_div(a, b);
   int a_exponent;
   int b_exponent;
   precise float n = split(a_bits, a_exponent);
@@ -81,7 +72,7 @@ float exact_div(float a, float b) {
   r = residual(n, q, d);
   precise float other = neighbour(q, r);
   take_better(other, residual(n, other, d), q, r);
-  return uintBitsToFloat(join(q, a_exponent - b_exponent, r) | sign);
+  return uintBitsToFloat(join(q, a_exponent - b_exponent) | sign);
 #endif
 }
 
@@ -90,8 +81,7 @@ float exact_sqrt(float x) {
   return device_sqrt(x);
 #else
   uint bits = floatBitsToUint(x);
-  if ((bits & 0x7fffffffu) == 0u) return x;
-  if (bits >= 0x7f800000u) return device_sqrt(x);
+  if (special(bits)) return device_sqrt(x);
   int exponent;
   precise float m = split(bits, exponent);
   // An even exponent halves exactly; an odd one leaves its factor 2 under the root.
@@ -103,6 +93,6 @@ float exact_sqrt(float x) {
   r = residual(m, c, c);
   precise float other = neighbour(c, r);
   take_better(other, residual(m, other, other), c, r);
-  return uintBitsToFloat(join(c, exponent >> 1, r));
+  return uintBitsToFloat(join(c, exponent >> 1));
 #endif
 }
