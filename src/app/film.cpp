@@ -36,6 +36,7 @@ void Film::start() {
     const int count = std::max(static_cast<int>(std::lround(length * view_.pixels_per_unit)), 16);
     return format.even_sides ? count & ~1 : count;
   };
+  named_ = settings.path;
   FilmOptions options;
   options.fps = settings.fps;
   options.path = settings.path.empty() ? free_name(editor_.source(), film_ending(format))
@@ -69,8 +70,8 @@ void Film::start() {
 
 void Film::stop() {
   if (!recording_) return;
-  // The name is used up: the next film gets another.
-  settings.path.clear();
+  // The name is used up: the next film gets another, or the one that was typed since.
+  if (settings.path == named_) settings.path.clear();
   end();
 }
 

@@ -92,6 +92,7 @@ class Film {
   Comparison& comparison_;
   ComparisonView& comparison_view_;
   Messages& messages_;
+  std::string named_;  // settings.path when it began
   std::unique_ptr<Recording> recording_;
   std::optional<FilmPace> pace_;
   std::vector<std::unique_ptr<FilmFile>> files_;  // next to the film

@@ -247,6 +247,17 @@ TEST_F(Film, DirectoriesOfPictures) {
   }
 }
 
+TEST_F(Film, KeepsANameThatIsTypedWhileAFilmRuns) {
+  open_small();
+  record(find_film_format("png"), 10.0, "first");
+  app().film.settings.path = "second";
+  app().film.start();
+  ASSERT_TRUE(app().film.recording());
+  EXPECT_EQ(app().film.recording()->options().path, "second");
+  end_film();
+  EXPECT_TRUE(app().film.settings.path.empty());
+}
+
 TEST_F(Film, PicturesDependOnSimulatedTimeAlone) {
   open_small("reference", "simulation.steps-per-frame=1");
   const auto film = [&](const std::string& name, std::int64_t steps_per_frame) {
