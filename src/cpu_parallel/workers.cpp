@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/flush_denormals.h"
+#include "base/fork.h"
 #include "base/printable.h"
 
 namespace aspic::parallel {
@@ -36,7 +37,23 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
 }  // namespace
 
 Workers::Workers(unsigned threads) : threads_(threads) {
-  for (unsigned n = 1; n < threads; ++n) others_.emplace_back([this, n] { work(n); });
+  start_threads();
+}
+
+void Workers::start_threads() {
+  forks_ = forks();
+  for (unsigned n = 1; n < threads_; ++n) others_.emplace_back([this, n] { work(n); });
+}
+
+/// In a child of fork() there are no threads but the caller's: starts others, and leaves those that only the
+/// parent has where nobody joins them.
+void Workers::revive() {
+  if (others_.empty() || forks_ == forks()) return;
+  new std::vector<std::jthread>(std::move(others_));
+  others_.clear();
+  round_ = 0;
+  finished_ = 0;
+  if (!ending_) start_threads();
 }
 
 std::shared_ptr<Workers> Workers::of_helpers(unsigned threads) {
@@ -48,12 +65,14 @@ std::shared_ptr<Workers> Workers::of_helpers(unsigned threads) {
 
 Workers::~Workers() {
   ending_ = true;
+  revive();
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
 }
 
 void Workers::run(std::size_t pieces, const std::function<void(std::size_t)>& task) {
   if (helped_) return run_with_helpers(pieces, task);
+  revive();
   task_ = &task;
   pieces_ = pieces;
   next_.store(0, std::memory_order_relaxed);

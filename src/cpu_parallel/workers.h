@@ -46,9 +46,12 @@ class Workers {
   void take_tickets();
   void work(unsigned index);
   void take_pieces();
+  void start_threads();
+  void revive();
 
   unsigned threads_ = 1;
   bool helped_ = false;
+  std::uint64_t forks_ = 0;  // of the process that the threads are in
   std::vector<std::jthread> others_;
   const std::function<void(std::size_t)>* task_ = nullptr;
   std::size_t pieces_ = 0;

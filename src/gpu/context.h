@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/fork.h"
 #include "base/result.h"
 #include "gpu/device_info.h"
 
@@ -86,8 +87,9 @@ struct WindowContext {
 /// A context and what was found out about its device. Buffers, programs and timers made with it must go
 /// before it; a gpu solver sees to that by holding it. GL calls go to the context that is current on the
 /// calling thread: whoever makes them enters the context first (gpu/current.h). A context is current on one
-/// thread at a time; an adopted one belongs to the thread that adopted it. Not movable: the driver keeps its
-/// address for messages.
+/// thread at a time; an adopted one belongs to the thread that adopted it. A child of fork() cannot use those
+/// of its parent, nor make its own where there were any: drivers lose their threads. Not movable: the driver
+/// keeps its address for messages.
 class Context : public std::enable_shared_from_this<Context> {
  public:
   /// A separate context, without a window, current on return.
@@ -105,7 +107,7 @@ class Context : public std::enable_shared_from_this<Context> {
   Context& operator=(const Context&) = delete;
 
   /// Makes the context current on this thread, where it stays so; nothing happens where it is. Error
-  /// (no_device): it is at work on another thread, or the system refuses.
+  /// (no_device): it is at work on another thread, the process was forked since, or the system refuses.
   Status make_current();
   /// Whether calls of this thread go to this context.
   bool is_current() const;
@@ -219,6 +221,7 @@ class Context : public std::enable_shared_from_this<Context> {
 
   Place egl_;  // nothing: a context of another window system
   bool owned_ = false;
+  const std::uint64_t forks_ = forks();  // of the process that it was made in
   WindowContext window_;
   std::thread::id thread_;  // that adopted it
   std::mutex disposed_mutex_;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cstdlib>
 
@@ -227,6 +228,15 @@ struct ThreadEnd {
 };
 thread_local ThreadEnd thread_end;
 
+/// Forks before the first display was opened; −1: none is.
+std::atomic<std::int64_t> opened_at = -1;
+
+Error forked_error() {
+  return fail(ErrorCode::no_device,
+              "OpenGL was in use before this process was forked, and its driver cannot be used in a child "
+              "process. Start child processes by 'spawn', or use OpenGL in them alone.");
+}
+
 /// An error in the words that follow a candidate's name.
 template <class... T>
 Error unfit(fmt::format_string<T...> why, T&&... arguments) {
@@ -278,6 +288,11 @@ Result<std::shared_ptr<Context>> Context::create_on(const EglCandidate& candidat
 
 Result<std::shared_ptr<Context>> Context::create_headless(const ContextOptions& options) {
   const FlushDenormals flush;  // the driver's threads inherit it
+  const auto now = static_cast<std::int64_t>(forks());
+  if (const std::int64_t opened = opened_at.exchange(now); opened >= 0 && opened != now) {
+    opened_at = opened;
+    return forked_error();
+  }
   if (const std::string missing = missing_resource(); !missing.empty()) {
     return advised({ErrorCode::no_device, missing + "."},
                    {advice("raise it"), {RemedyKind::draw_nothing, {"cpu"}}});
@@ -312,6 +327,7 @@ bool Context::is_current() const {
 }
 
 Status Context::enter(Place& before) {
+  if (forks_ != forks()) return forked_error();
   if (!is_current()) {
     if (!owned_ && std::this_thread::get_id() != thread_) return elsewhere_error();
     if (egl_.context) {
@@ -346,6 +362,7 @@ void Context::put_back(const Place& before) {
 }
 
 Context::~Context() {
+  if (forks_ != forks()) return;  // the parent's
   {
     const Current here(*this);
     release_objects();
