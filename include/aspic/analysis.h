@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -163,5 +164,9 @@ ASPIC_API std::vector<StabilityLimit> stability_limits(const Model& model,
                                                        std::span<const Integrator> integrators,
                                                        StabilityEffort effort = StabilityEffort::thorough,
                                                        const StabilityWatch& watch = {});
+
+/// A sentence where the model's time step is above the estimate of its method's largest stable one; else
+/// empty. Of the effort quick.
+ASPIC_API std::string unstable_step_warning(const Model& model, const StabilityWatch& watch = {});
 
 }  // namespace aspic

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "analysis/stability.h"
 
@@ -59,6 +60,14 @@ std::optional<double> step_to_try(double timestep, const StabilityLimit& limit) 
 std::string unstable_sentence(double timestep, Integrator integrator, const StabilityLimit& limit) {
   return fmt::format("the time step {:.4g} s {} stable: {}.", timestep, limit.exact ? "is not" : "may not be",
                      stability_sentence(integrator, limit));
+}
+
+std::string unstable_step_warning(const Model& model, const StabilityWatch& watch) {
+  const auto& [integrator, timestep] = std::pair(model.simulation.integrator, model.simulation.timestep);
+  // The infinite lattice clears most cubes at once; a large one's own spectrum takes seconds.
+  if (certainly_stable(model, integrator, timestep)) return "";
+  const StabilityLimit limit = stability_limit(model, integrator, StabilityEffort::quick, watch);
+  return exceeds(timestep, limit) ? unstable_sentence(timestep, integrator, limit) : "";
 }
 
 }  // namespace aspic

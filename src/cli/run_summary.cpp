@@ -141,7 +141,6 @@ void print_frame_times(const FrameTimes& t, const std::string& device) {
       ms(t.encode)));
 }
 
-/// The infinite lattice clears most cubes at once; a large one's own spectrum takes seconds.
 std::string command_of(const std::vector<std::string>& words) {
   std::string command = "aspic run";
   for (const std::string& word : words) command += " " + shell_word(word);
@@ -149,12 +148,8 @@ std::string command_of(const std::vector<std::string>& words) {
 }
 
 void warn_if_unstable(const Model& model, const InterruptGuard& interrupt, const std::string& of) {
-  const SimulationSettings& simulation = model.simulation;
-  if (certainly_stable(model, simulation.integrator, simulation.timestep)) return;
-  const StabilityLimit stable = stability_limit(model, simulation.integrator, StabilityEffort::quick,
-                                                [&](double) { return !interrupt.interrupted(); });
-  if (!interrupt.interrupted() && exceeds(simulation.timestep, stable))
-    print_warning(of + unstable_sentence(simulation.timestep, simulation.integrator, stable));
+  const std::string found = unstable_step_warning(model, [&](double) { return !interrupt.interrupted(); });
+  if (!interrupt.interrupted() && !found.empty()) print_warning(of + found);
 }
 
 Error divergence_error(const Model& model, const Outcome& outcome, const InterruptGuard& interrupt,
