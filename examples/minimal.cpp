@@ -23,14 +23,14 @@ int main(int argc, char** argv) {
   if (!choice) return fail(choice.error());
   const auto backend = aspic::make_backend(*choice, *model);
   if (!backend) return fail(backend.error());
-  const auto divergence = backend->solver->advance(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1000);
-  if (!divergence) return fail(divergence.error());
+  const auto advanced = backend->solver->advance(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1000);
+  if (!advanced) return fail(advanced.error());
   const auto state = backend->solver->state();
   if (!state) return fail(state.error());
   std::printf("step %llu on %s\n", static_cast<unsigned long long>(state->step), backend->device.c_str());
   std::printf("total energy %.6g J\n", aspic::measure(**model, *state).total());
   std::printf("state hash %s\n", aspic::state_hash_text(*state).c_str());
-  if (!*divergence) return 0;  // all steps were made
-  std::printf("diverged in step %llu\n", static_cast<unsigned long long>((*divergence)->step));
+  if (!advanced->divergence) return 0;  // all steps were made
+  std::printf("diverged in step %llu\n", static_cast<unsigned long long>(advanced->divergence->step));
   return static_cast<int>(aspic::ErrorCode::diverged);
 }

@@ -54,6 +54,9 @@ struct Inputs {
   friend bool operator==(const Inputs&, const Inputs&) = default;
 };
 
+/// The step nearest to the time of `step` when the time step changes from `from` to `to` [s]; 2⁵³ at most.
+ASPIC_API std::uint64_t step_at_same_time(std::uint64_t step, double from, double to);
+
 /// The inputs of one hand; nothing: none.
 ASPIC_API Inputs inputs_of(const std::optional<Pull>& hand);
 
@@ -80,7 +83,7 @@ class ASPIC_API InputLog {
   const Inputs& at(std::uint64_t step) const;
   /// The first step after this one with other inputs.
   std::optional<std::uint64_t> next_change(std::uint64_t step) const;
-  /// The same inputs in a run with another time step: each from the step nearest to its time on. Both [s].
+  /// The same inputs in a run with another time step: each from step_at_same_time() on. Both [s].
   InputLog with_timestep(double from, double to) const;
   /// 64-bit FNV-1a of all entries; the same for equal logs only, so far as hashes go.
   std::uint64_t hash() const;

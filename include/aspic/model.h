@@ -21,9 +21,16 @@ struct Model;
 using SharedModel = std::shared_ptr<const Model>;
 
 /// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
-/// particles than 32-bit indices or free memory hold. Values are taken as they are: it is aspic/scene.h that
-/// checks ranges, of a scene changed by code through with_overrides().
+/// particles than 32-bit indices or free memory hold, a number that is not finite in single precision. Other
+/// values are taken as they are: aspic/scene.h checks ranges, of a scene changed by code through
+/// with_overrides().
 ASPIC_API Result<SharedModel> make_model(const ModelSettings& settings);
+
+/// Settings for a run that is at `time` [s]: where a frequency of a terrain's motion or of an actuator
+/// differs from `before` and its phase does not, the phase becomes the one with which motion and signal go
+/// on.
+ASPIC_API ModelSettings with_continuous_phases(ModelSettings settings, const ModelSettings& before,
+                                               double time);
 
 /// The state a run starts from, rounded to `precision`; −0 becomes +0.
 ASPIC_API State initial_state(const Model& model, Precision precision);

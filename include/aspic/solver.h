@@ -22,6 +22,17 @@ struct Divergence {
   bool finite = true;          ///< false: NaN or infinity; true: too fast
   bool ball = false;           ///< true: `particle` is the index of a ball
   bool residual = false;       ///< true: it was the solve's residual, and `particle` says nothing
+
+  friend bool operator==(const Divergence&, const Divergence&) = default;
+};
+
+/// How far advance() came and what ended it. If neither reason is set, all steps were made.
+struct Advance {
+  std::uint64_t steps = 0;  ///< made in this call; of a gpu solver that does not wait, those queued
+  std::optional<Divergence> divergence = {};  ///< ended the steps
+  bool stopped = false;                       ///< the stop flag ended them
+
+  friend bool operator==(const Advance&, const Advance&) = default;
 };
 
 /// What diverged, for messages: `particle 7`, `ball 2`, `the residual of the implicit solve`.
@@ -87,7 +98,8 @@ class ASPIC_API Solver {
   virtual std::uint64_t bytes() const = 0;
 
   /// Takes over a state: rounds it to the solver's own precision, keeps its step number, forgets any
-  /// divergence. Error (usage): the state has another number of particles or balls.
+  /// divergence. Errors (usage): the state has another number of particles or balls, or a number that is not
+  /// finite in that precision; then nothing changes.
   Status load(const State& state);
   /// The same of numbers that lie elsewhere, float or double with strides; every field must be there.
   Status load(const ConstStateView& view, std::uint64_t step);
@@ -103,12 +115,14 @@ class ASPIC_API Solver {
   /// Goes over to another model with the same topology (check_same_topology()), so that only constants
   /// differ: of springs, masses, gravity, contact, terrain, balls, the time step and the solve's limits. From
   /// here on the bits are those of a new solver of that model which has load()ed this state and has the same
-  /// inputs. Forgets a divergence; solve_statistics() count on. Error (usage): another topology, or inputs
-  /// that the other model refuses; then nothing changes. Error (no_device): as advance().
+  /// inputs. Another time step h keeps the time: the step number becomes step_at_same_time(). Forgets a
+  /// divergence; solve_statistics() count on. Error (usage): another topology, or inputs that the other model
+  /// refuses; then nothing changes. Error (no_device): as advance().
   Status set_constants(SharedModel model);
-  /// Advances by `steps`, fewer only after a divergence, which is returned, and while the stop flag is set.
-  /// Error (no_device): the device was lost or ran out of memory; the solver is of no use from then on.
-  virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
+  /// Advances by `steps`, or until a divergence or the stop flag ends them: the result says which, and how
+  /// many were made. Error (no_device): the device was lost or ran out of memory; the solver is of no use
+  /// from then on.
+  virtual Result<Advance> advance(std::uint64_t steps) = 0;
   /// While `*flag` is true advance() ends early, and the state is that at the start of the step it was in.
   /// Null: never. Any thread may set the flag; it must stay true until advance() has returned, and outlive
   /// the calls. GPU solvers ignore it, since they queue their work.
@@ -132,21 +146,27 @@ class ASPIC_API Solver {
   virtual Result<std::uint64_t> give_state(const StateView& view) = 0;
   /// Inputs for the next step: rounded, and others than inputs(), which are still the ones before.
   virtual Status take_inputs(const Inputs& inputs) = 0;
-  /// A model with the same topology, which takes inputs().
-  virtual Status take_constants(SharedModel model) = 0;
+  /// A model with the same topology, which takes inputs(); the state's step number becomes `step`.
+  virtual Status take_constants(SharedModel model, std::uint64_t step) = 0;
   /// The caller's flag, or null.
   const std::atomic<bool>* stop_flag() const { return flag_; }
   /// Whether advance() should end.
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
+  /// What an advance() of a solver that heeds the flag returns.
+  static Advance ended(std::uint64_t made, std::uint64_t wanted,
+                       const std::optional<Divergence>& divergence) {
+    return {made, divergence, made < wanted && !divergence};
+  }
 
  private:
   const std::atomic<bool>* flag_ = nullptr;
   Inputs inputs_;
 };
 
-/// Solver::advance() from the state of number `step`, where the solver is, with every step's inputs;
-/// afterwards those of the next one hold. Errors: those of the solver.
-ASPIC_API Result<std::optional<Divergence>> advance(Solver& solver, const InputLog& log, std::uint64_t step,
-                                                    std::uint64_t steps);
+/// Solver::advance() from the state of number `step`, where the solver is, with every step's inputs.
+/// Afterwards the inputs of the next step are in effect, also where the steps ended early. Errors: those of
+/// the solver.
+ASPIC_API Result<Advance> advance(Solver& solver, const InputLog& log, std::uint64_t step,
+                                  std::uint64_t steps);
 
 }  // namespace aspic

@@ -11,7 +11,7 @@
 #define MAX_STAGES 4
 #define MAX_SPRING_CLASSES 640
 #define MAX_TERRAINS 64
-#define MAX_PULLS 256  // most_pulls of src/model/inputs.h
+#define MAX_PULLS 256  // most_pulls of include/aspic/inputs.h
 #define MAX_POSES 510  // of moving terrain, in the table of the next steps: 16 KiB with its head
 // Particles of a tile of a cube along i, j and k: a group's. With two on each side it takes 27 KiB, of 32 that are certain.
 #define TILE_I 4
@@ -28,7 +28,7 @@
 // Rows of a step of implicit Euler.
 #define LENGTHS_AT_START 0u
 #define LENGTHS_AT_END 1u
-#define GEOMETRY_SIZE 3  // vectors, and numbers, of a shape: geometry_size in src/model/shapes/shape.h
+#define GEOMETRY_SIZE 3  // vectors, and numbers, of a shape: geometry_size in include/aspic/settings.h
 
 // Vectors of the OWN block, each an array over particles.
 #define OWN_BASE 0u       // v' of the accepted Newton iterate [m/s]

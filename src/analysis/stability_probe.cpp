@@ -95,8 +95,8 @@ Result<bool> grows(Solver& solver, const ProbeStart& start, std::uint64_t steps)
   // After three steps and five in turn, so that oscillations of any period show.
   for (std::uint64_t step = 0, look = 0; step < steps; ++look) {
     const std::uint64_t count = std::min<std::uint64_t>(3 + 2 * (look % 2), steps - step);
-    ASPIC_TRY(const auto divergence, solver.advance(count));
-    if (divergence) return true;
+    ASPIC_TRY(const auto advanced, solver.advance(count));
+    if (advanced.divergence) return true;
     step += count;
     ASPIC_TRY(const auto state, solver.state());
     const double now = amplitude(state, start.rest);

@@ -48,8 +48,10 @@ Status Batch::Parts::check(std::size_t instance) const {
 Status Batch::Parts::move_out(std::size_t instance, SharedModel model) {
   batch::Unit& from = unit(instance);
   const std::size_t slot = places[instance].slot;
+  const std::uint64_t step =
+      step_at_same_time(from.step(slot), from.model(slot)->simulation.timestep, model->simulation.timestep);
   ASPIC_TRY(auto alone, batch::make_lone(std::move(model)));
-  ASPIC_CHECK(alone->load(0, from.view(slot), from.step(slot)));
+  ASPIC_CHECK(alone->load(0, from.view(slot), step));
   ASPIC_CHECK(alone->set_inputs(0, from.inputs(slot)));
   alone->set_stop_flag(flag);
   from.retire(slot);

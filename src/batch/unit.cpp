@@ -35,6 +35,7 @@ class Lone final : public Unit {
   Status set_inputs(std::size_t, const Inputs& inputs) override { return solver_->set_inputs(inputs); }
   Result<bool> set_constants(std::size_t, SharedModel model) override {
     ASPIC_CHECK(solver_->set_constants(model));
+    ASPIC_TRY(step_, solver_->read_into({}));
     model_ = std::move(model);
     divergence_.reset();
     return true;
@@ -43,8 +44,9 @@ class Lone final : public Unit {
   void set_stop_flag(const std::atomic<bool>* flag) override { solver_->set_stop_flag(flag); }
 
   Status advance(std::uint64_t steps) override {
-    ASPIC_TRY(divergence_, solver_->advance(steps));
-    ASPIC_TRY(step_, solver_->read_into({}));
+    ASPIC_TRY(const Advance advanced, solver_->advance(steps));
+    divergence_ = advanced.divergence;
+    step_ += advanced.steps;
     return {};
   }
   parallel::Workers* helped() const override { return helpers_.get(); }
@@ -72,6 +74,7 @@ class Stacked final : public Unit {
 
   Status load(std::size_t slot, const ConstStateView& view, std::uint64_t step) override {
     ASPIC_CHECK(check_sizes(*model(slot), view, true));
+    ASPIC_CHECK(check_finite(view, Precision::single));
     stack_.load(slot, view, step);
     return {};
   }

@@ -29,7 +29,8 @@ class BackendContestant final : public Contestant {
       if (interrupt_.interrupted()) return Error{ErrorCode::interrupted, ""};
       const auto before = Clock::now();
       const std::uint64_t count = std::min(at_once_, steps - done);
-      ASPIC_TRY(m.divergence, solver.advance(count));
+      ASPIC_TRY(const Advance advanced, solver.advance(count));
+      m.divergence = advanced.divergence;
       done += count;
       if (count == at_once_ && seconds_since(before) < patience) at_once_ *= 2;
     }
@@ -55,7 +56,8 @@ class BackendContestant final : public Contestant {
     const auto start = Clock::now();
     for (std::size_t n = 0; n < gl::PassProfiler::window && (n == 0 || seconds_since(start) < 1.0); ++n) {
       if (interrupt_.interrupted()) break;
-      ASPIC_TRY(m.divergence, backend_.solver->advance(1));
+      ASPIC_TRY(const Advance advanced, backend_.solver->advance(1));
+      m.divergence = advanced.divergence;
       // Reading waits for the device, so that every step finds a free place for its time stamps.
       ASPIC_CHECK(read());
     }

@@ -143,8 +143,8 @@ Result<std::vector<Vec3>> expected_positions(ModelSettings settings, const Hello
   State state = initial_state(backend.solver->model(), Precision::double_);
   for (Vec3& x : state.position) x.y *= check_stretch;
   ASPIC_CHECK(backend.solver->load(state));
-  ASPIC_TRY(const auto divergence, backend.solver->advance(check_steps));
-  if (divergence) return fail(ErrorCode::diverged, "the reference diverges in the check.");
+  ASPIC_TRY(const auto advanced, backend.solver->advance(check_steps));
+  if (advanced.divergence) return fail(ErrorCode::diverged, "the reference diverges in the check.");
   ASPIC_TRY(state, backend.solver->state());
   return state.position;
 }

@@ -67,12 +67,10 @@ Status HeadlessRun::advance_to(std::uint64_t step, const InterruptGuard& interru
     const std::uint64_t watched = watch_ ? watch_->next_step(step_) : step;
     const std::uint64_t count = std::min({batch_.next(), step - step_, wanted - step_, watched - step_});
     const auto before = Clock::now();
-    ASPIC_TRY(divergence_, aspic::advance(solver_, inputs_, step_, count));
-    if (divergence_) {
-      step_ = divergence_->step - 1;
-      break;
-    }
-    step_ += count;
+    ASPIC_TRY(const Advance advanced, aspic::advance(solver_, inputs_, step_, count));
+    divergence_ = advanced.divergence;
+    step_ += advanced.steps;
+    if (divergence_) break;
     if (step_ == wanted) ASPIC_CHECK(sample());
     if (watch_ && step_ == watched) {
       ASPIC_TRY(const auto state, solver_.state());

@@ -85,10 +85,11 @@ class CpuSolver final : public Solver {
     dynamics_.set_stop_flag(flag);
   }
 
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
+  Result<Advance> advance(std::uint64_t steps) override {
     const FlushDenormals flush;
-    for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) step();
-    return divergence_;
+    const std::uint64_t from = step_;
+    while (step_ - from < steps && !divergence_ && !interrupted()) step();
+    return ended(step_ - from, steps, divergence_);
   }
 
   std::optional<SolveStatistics> solve_statistics() override {
@@ -102,7 +103,7 @@ class CpuSolver final : public Solver {
   Status take_state(const ConstStateView& view, std::uint64_t step) override;
   Result<std::uint64_t> give_state(const StateView& to) override;
   Status take_inputs(const Inputs& inputs) override;
-  Status take_constants(SharedModel model) override;
+  Status take_constants(SharedModel model, std::uint64_t step) override;
   std::vector<std::pair<std::size_t, reference::Vector<float>>> hold_pins();
   std::uint64_t heap_bytes() const;
   void step();
@@ -226,7 +227,7 @@ Status CpuSolver::take_inputs(const Inputs& taken) {
   return {};
 }
 
-Status CpuSolver::take_constants(SharedModel model) {
+Status CpuSolver::take_constants(SharedModel model, std::uint64_t step) {
   // Others refer to these, which stay in their places.
   model_ = std::move(model);
   dynamics_ = reference::Dynamics<float>(*model_);
@@ -239,6 +240,7 @@ Status CpuSolver::take_constants(SharedModel model) {
   fill(mass_, model_->mass);
   fill(inverse_mass_, inverse_mass_under(*model_, inputs()));
   steps_->constants_changed();
+  step_ = step;
   pins_held_ = false;
   divergence_.reset();
   return {};
@@ -263,7 +265,8 @@ void CpuSolver::step() {
   dynamics_.begin_step(step_);
   SolveReport report;
   bool sound = steps_->step(state_, next_, report);
-  if (interrupted()) {  // the step is dropped
+  // The step is dropped. Contact may have renewed its lists, on which no bit depends.
+  if (interrupted()) {
     steps_->forget();
     for (const auto& [i, v] : before) parallel::set(state_.v, i, v);
     pins_held_ = before.empty();

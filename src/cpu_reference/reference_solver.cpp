@@ -60,16 +60,18 @@ class ReferenceSolver final : public Solver {
     parts_->dynamics.set_stop_flag(flag);
   }
 
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
+  Result<Advance> advance(std::uint64_t steps) override {
     std::optional<FlushDenormals> flush;
     if (denormals_ == Denormals::flushed) flush.emplace();
-    for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) {
+    const std::uint64_t from = step_;
+    while (step_ - from < steps && !divergence_ && !interrupted()) {
       SolveReport report;
       const Field<T> before = hold_pins();
       parts_->dynamics.begin_step(step_);
       Phase<T> next = parts_->method->step(phase_, report);
       parts_->method->respond(phase_, next);
-      if (interrupted()) {  // the step is dropped
+      // The step is dropped. Contact may have renewed its lists, on which no bit depends.
+      if (interrupted()) {
         if (before.cols() > 0) phase_.v = before;
         pins_held_ = before.cols() == 0;
         break;
@@ -89,7 +91,7 @@ class ReferenceSolver final : public Solver {
       std::swap(ball_phase_, next_balls);
       ++step_;
     }
-    return divergence_;
+    return ended(step_ - from, steps, divergence_);
   }
 
   std::optional<SolveStatistics> solve_statistics() override {
@@ -123,9 +125,10 @@ class ReferenceSolver final : public Solver {
     return {};
   }
 
-  Status take_constants(SharedModel model) override {
+  Status take_constants(SharedModel model, std::uint64_t step) override {
     parts_ = std::make_unique<Parts>(kind_, std::move(model));
     parts_->dynamics.set_stop_flag(stop_flag());
+    step_ = step;
     divergence_.reset();
     pins_held_ = false;
     return take_inputs(inputs());

@@ -95,12 +95,15 @@ void DeviceSolver::take(const ConstStateView& state, std::uint64_t step) {
   restart();
 }
 
-Result<std::optional<Divergence>> DeviceSolver::advance(std::uint64_t steps) {
+Result<Advance> DeviceSolver::advance(std::uint64_t steps) {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
+  const std::uint64_t from = base_step_ + steps_since_;
   if (steps > 0) ASPIC_CHECK(hold_pins());
   ASPIC_CHECK(take_steps(steps));
-  return divergence_;
+  // A divergence in steps queued earlier takes the solver back.
+  const std::uint64_t to = base_step_ + steps_since_;
+  return Advance{to - std::min(from, to), divergence_};
 }
 
 Status DeviceSolver::take_state(const ConstStateView& view, std::uint64_t step) {
@@ -122,7 +125,7 @@ Status DeviceSolver::take_inputs(const Inputs& taken) {
   return {};
 }
 
-Status DeviceSolver::take_constants(SharedModel next) {
+Status DeviceSolver::take_constants(SharedModel next, std::uint64_t step) {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
   ASPIC_TRY(const layout::Simulation block, simulation_block(*next));
@@ -131,13 +134,13 @@ Status DeviceSolver::take_constants(SharedModel next) {
     return a.radius == b.radius && a.mass == b.mass && a.launch_step == b.launch_step;
   };
   // A state holds masses and the balls' constants too.
-  const bool same_state = !divergence_ && model_->mass == next->mass &&
+  const bool same_state = !divergence_ && step == base_step_ + steps_since_ && model_->mass == next->mass &&
                           model_->inverse_mass == next->inverse_mass &&
                           std::ranges::equal(model_->balls, next->balls, alike);
   std::optional<State> state;
   if (!same_state) {
     state.emplace();
-    state->step = base_step_ + steps_since_;
+    state->step = step;
     resize(*state, model_->particle_count(), model_->ball_count());
     read(view_of(*state));
   }

@@ -40,7 +40,7 @@ class DeviceSolver : public GpuSolver {
   const gl::Arithmetic& arithmetic() const final { return arithmetic_; }
   const std::shared_ptr<const SpringBuffers>& spring_buffers() const final { return springs_; }
 
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) final;
+  Result<Advance> advance(std::uint64_t steps) final;
   void set_profiling(bool on) final;
   std::vector<gl::PassTime> pass_times() final;
 
@@ -131,7 +131,7 @@ class DeviceSolver : public GpuSolver {
   Status take_state(const ConstStateView& view, std::uint64_t step) final;
   Result<std::uint64_t> give_state(const StateView& view) final;
   Status take_inputs(const Inputs& inputs) final;
-  Status take_constants(SharedModel model) final;
+  Status take_constants(SharedModel model, std::uint64_t step) final;
   void read(const StateView& view) const;
   Status hold_pins();
 

@@ -77,9 +77,10 @@ ASPIC_EXPORT(change) int change() {
 ASPIC_EXPORT(advance) int advance(double steps) {
   const auto advanced = run->advance(static_cast<std::uint64_t>(steps));
   if (!advanced) return done(advanced.error());
-  if (!*advanced) return 0;
-  said = fmt::format("diverged in step {}: {} {}", (*advanced)->step, body_text(**advanced),
-                     fault_text(**advanced));
+  const auto& divergence = advanced->divergence;
+  if (!divergence) return 0;
+  said = fmt::format("diverged in step {}: {} {}", divergence->step, body_text(*divergence),
+                     fault_text(*divergence));
   return 2;
 }
 

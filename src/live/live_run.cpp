@@ -43,7 +43,9 @@ Result<LiveRun> LiveRun::create(std::string_view key_lines) {
 Status LiveRun::change(std::string_view key_lines, std::vector<double> channels) {
   ASPIC_TRY(auto scene, with_key_lines(scene_, key_lines));
   ASPIC_TRY(auto solver, solver_of(scene));
-  ASPIC_TRY(const State state, solver_->state());
+  ASPIC_TRY(State state, solver_->state());
+  state.step =
+      step_at_same_time(state.step, model().simulation.timestep, solver->model().simulation.timestep);
   if (const Status loaded = solver->load(state); !loaded)
     return fail(ErrorCode::scene_rejected,
                 "The number of particles and balls cannot change while a run goes on.");

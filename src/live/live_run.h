@@ -31,7 +31,7 @@ class LiveRun {
   Status change(std::string_view key_lines, std::vector<double> channels = {});
 
   /// Solver::advance().
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) { return solver_->advance(steps); }
+  Result<Advance> advance(std::uint64_t steps) { return solver_->advance(steps); }
 
   /// Copies the state into numbers(), and measures it. Errors: none but a solver's.
   Status take();

@@ -13,6 +13,13 @@ Status check_sizes(const Model& model, const State& state);
 Status check_sizes(const Model& model, const StateView& view);
 Status check_sizes(const Model& model, const ConstStateView& view, bool all);
 
+/// Error (usage): a number is not finite once it is rounded to the precision; names the first body with one.
+Status check_finite(const ConstStateView& view, Precision precision);
+
+/// Error (scene_rejected): a number of the model is not finite in single precision, or its time step is not
+/// positive.
+Status check_finite(const Model& model);
+
 /// Springs, pinned particles and balls of a model, for reports.
 struct ModelCounts {
   std::uint64_t particles = 0, pinned = 0, structural = 0, shear = 0, bending = 0, balls = 0;

@@ -12,6 +12,13 @@
 
 namespace aspic {
 
+std::uint64_t step_at_same_time(std::uint64_t step, double from, double to) {
+  if (from == to) return step;
+  constexpr double last = 9007199254740992.0;  // 2⁵³: as far as double precision counts
+  const double at = std::nearbyint(static_cast<double>(step) * from / to);
+  return static_cast<std::uint64_t>(at >= 0.0 && at < last ? at : last);
+}
+
 void InputLog::set(std::uint64_t step, Inputs inputs) {
   forget_from(step);
   if (inputs == at(step)) return;
@@ -37,11 +44,7 @@ std::optional<std::uint64_t> InputLog::next_change(std::uint64_t step) const {
 InputLog InputLog::with_timestep(double from, double to) const {
   if (from == to) return *this;
   InputLog result;
-  constexpr double last = 9007199254740992.0;  // 2⁵³: as far as double precision counts
-  for (const Entry& entry : entries_) {
-    const double step = std::min(std::nearbyint(static_cast<double>(entry.step) * from / to), last);
-    result.set(static_cast<std::uint64_t>(step), entry.inputs);
-  }
+  for (const Entry& entry : entries_) result.set(step_at_same_time(entry.step, from, to), entry.inputs);
   return result;
 }
 
@@ -91,18 +94,17 @@ Status check_log(const Model& model, const InputLog& log, Precision precision) {
   return {};
 }
 
-Result<std::optional<Divergence>> advance(Solver& solver, const InputLog& log, std::uint64_t step,
-                                          std::uint64_t steps) {
-  std::optional<Divergence> divergence;
-  const std::uint64_t end = step + steps;
-  while (step < end && !divergence) {
-    ASPIC_CHECK(solver.set_inputs(log.at(step)));
-    const std::uint64_t to = std::min(end, log.next_change(step).value_or(end));
-    ASPIC_TRY(divergence, solver.advance(to - step));
-    step = to;
+Result<Advance> advance(Solver& solver, const InputLog& log, std::uint64_t step, std::uint64_t steps) {
+  Advance all;
+  while (all.steps < steps && !all.divergence && !all.stopped) {
+    const std::uint64_t at = step + all.steps, end = step + steps;
+    ASPIC_CHECK(solver.set_inputs(log.at(at)));
+    ASPIC_TRY(Advance part, solver.advance(std::min(end, log.next_change(at).value_or(end)) - at));
+    part.steps += all.steps;
+    all = part;
   }
-  if (!divergence) ASPIC_CHECK(solver.set_inputs(log.at(end)));
-  return divergence;
+  if (!all.divergence) ASPIC_CHECK(solver.set_inputs(log.at(step + all.steps)));
+  return all;
 }
 
 }  // namespace aspic

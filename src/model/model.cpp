@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "base/result.h"
 #include "model/actuators.h"
 #include "model/bodies.h"
+#include "model/counts.h"
 #include "model/integrator.h"
 #include "model/springs.h"
 #include "model/terrain.h"
@@ -73,6 +75,7 @@ Result<Model> build_model(const ModelSettings& settings) {
     }
   }
   if (!settings.actuators.empty()) actuation.finish(model);
+  ASPIC_CHECK(check_finite(model));
   return model;
 }
 

@@ -139,8 +139,9 @@ inline SharedModel shared(Model model) {
 inline constexpr std::uint64_t most_indices = 0x7fffffff;
 
 /// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
-/// particles than 32-bit indices or free memory hold. Values are taken as they are: it is
-/// aspic/scene.h that checks ranges, of a scene changed by code through with_overrides().
+/// particles than 32-bit indices or free memory hold, a number that is not finite in single precision. Other
+/// values are taken as they are: aspic/scene.h checks ranges, of a scene changed by code through
+/// with_overrides().
 Result<Model> build_model(const ModelSettings& settings);
 
 /// Whether the models, of as many particles, pin the same ones.

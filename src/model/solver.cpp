@@ -24,11 +24,12 @@ std::string fault_text(const Divergence& divergence) {
 
 Status Solver::load(const State& state) {
   ASPIC_CHECK(check_sizes(model(), state));
-  return take_state(view_of(state), state.step);
+  return load(view_of(state), state.step);
 }
 
 Status Solver::load(const ConstStateView& view, std::uint64_t step) {
   ASPIC_CHECK(check_sizes(model(), view, true));
+  ASPIC_CHECK(check_finite(view, precision()));
   return take_state(view, step);
 }
 
@@ -56,7 +57,9 @@ Status Solver::set_inputs(const Inputs& inputs) {
 Status Solver::set_constants(SharedModel next) {
   ASPIC_CHECK(check_same_topology(model(), *next));
   if (const auto taken = rounded_inputs(*next, inputs_, precision()); !taken) return taken.error();
-  return take_constants(std::move(next));
+  const double from = model().simulation.timestep, to = next->simulation.timestep;
+  ASPIC_TRY(const std::uint64_t step, give_state({}));
+  return take_constants(std::move(next), step_at_same_time(step, from, to));
 }
 
 std::string_view name_of(Arithmetic arithmetic) {

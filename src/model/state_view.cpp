@@ -98,6 +98,28 @@ ConstStateView view_of(const State& state) {
   return view;
 }
 
+Status check_finite(const ConstStateView& view, Precision precision) {
+  const double limit =
+      precision == Precision::single ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
+  for (std::size_t n = 0; n < view.size(); ++n) {
+    const auto bad = std::visit(
+        [&](const auto& of) -> std::optional<std::size_t> {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(of)>, std::monostate>) {
+            for (std::size_t i = 0; i < of.count; ++i)
+              for (std::size_t c = 0; c < StateField::components; ++c)
+                if (!(std::abs(of.at(i, c)) <= limit)) return i;
+          }
+          return std::nullopt;
+        },
+        view[n]);
+    if (!bad) continue;
+    return fail(ErrorCode::usage, "the {} of {} {} is not a finite number in {} precision",
+                state_fields[n].name, state_fields[n].carrier == StateCarrier::ball ? "ball" : "particle",
+                *bad, name_of(precision));
+  }
+  return {};
+}
+
 Status check_sizes(const Model& model, const StateView& view) {
   return check_counts(model, view, false);
 }

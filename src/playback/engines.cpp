@@ -11,10 +11,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 Status advance(const Backend& engine, std::uint64_t steps, Advanced& into) {
-  ASPIC_TRY(into.divergence, engine.solver->advance(steps));
+  ASPIC_TRY(auto advanced, engine.solver->advance(steps));
   ASPIC_TRY(auto state, engine.solver->state());
   // A device may tell of a divergence once it was waited for.
-  ASPIC_TRY(into.divergence, engine.solver->advance(0));
+  ASPIC_TRY(advanced, engine.solver->advance(0));
+  into.divergence = advanced.divergence;
   into.state = std::move(state);
   return {};
 }
@@ -65,14 +66,14 @@ Result<JobResult> Engines::advance_outside(const JobLimits& limits, const std::a
   }
   std::uint64_t sample = next_sample_step(limits.from, model_->simulation.timestep);
   first.set_stop_flag(&cancelled);
-  for (std::uint64_t at = limits.from;
-       at < limits.to && !cancelled && !paced.divergence && Clock::now() < end; ++at) {
-    ASPIC_TRY(paced.divergence, first.advance(1));
-    if (at + 1 != sample || paced.divergence || limits.alone) continue;
+  for (std::uint64_t at = limits.from; at < limits.to && Clock::now() < end;) {
+    ASPIC_TRY(const Advance advanced, first.advance(1));
+    paced.divergence = advanced.divergence;
+    if (advanced.divergence || advanced.stopped) break;
+    if (++at != sample || limits.alone) continue;
     sample = next_sample_step(sample, model_->simulation.timestep);
     ASPIC_TRY(const auto state, first.state());
-    // A cancelled step does not count.
-    if (state.step == at + 1) outcome.energies.push_back(measured(state));
+    outcome.energies.push_back(measured(state));
   }
   ASPIC_TRY(paced.state, first.state());
   outcome.steps = paced.state.step - limits.from;

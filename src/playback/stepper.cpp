@@ -74,7 +74,9 @@ Inputs Stepper::composed(Acts acts, const std::map<std::uint32_t, bool>& by_hand
   std::erase_if(all.pulls, [&](const Pull& pull) {
     return pull.particle >= (pull.ball ? model.ball_count() : model.particle_count());
   });
-  if (all.pulls.size() > most_pulls) all.pulls.resize(most_pulls);
+  // The hand is the last one, and stays.
+  if (const std::size_t kept = most_pulls - 1; all.pulls.size() > most_pulls)
+    all.pulls.erase(all.pulls.begin() + kept, all.pulls.end() - 1);
   for (auto* const particles : {&all.pinned, &all.released}) {
     std::ranges::sort(*particles);
     particles->erase(std::unique(particles->begin(), particles->end()), particles->end());
@@ -178,7 +180,8 @@ Status Stepper::advance_here(std::uint64_t steps, double budget) {
     const std::uint64_t count = std::min({batch_, steps - done, seeking ? steps : sample - present_.step()});
     const auto before = Clock::now();
     ASPIC_TRY(const auto advanced, present_.engines().leader().solver->advance(count));
-    reach(advanced ? advanced->step - 1 : present_.step() + count, advanced);
+    reach(advanced.divergence ? advanced.divergence->step - 1 : present_.step() + advanced.steps,
+          advanced.divergence);
     done += count;
     const double took = seconds_since(before);
     // A batch is about a quarter of the budget, so that its end is not far beyond.
@@ -272,7 +275,7 @@ Status Stepper::refresh_snapshot() {
   present_.take_snapshot(std::move(*state));
   if (Engines::in_context(leader) && !present_.divergence()) {
     ASPIC_TRY(const auto found, leader.solver->advance(0));
-    if (found) reach(present_.snapshot().step, found);
+    if (found.divergence) reach(present_.snapshot().step, found.divergence);
   }
   present_.set_step(present_.snapshot().step);
   return {};

@@ -28,10 +28,10 @@ Result<Speed> measured(const SharedModel& model, const BackendRow& row, double s
   Solver& solver = *backend.solver;
   Speed speed;
   speed.device = backend.device;
-  ASPIC_TRY(auto divergence, solver.advance(compared_steps));
+  ASPIC_TRY(auto advanced, solver.advance(compared_steps));
   ASPIC_TRY(auto state, solver.state());
   speed.hash = state_hash_text(state);
-  if (divergence) return speed;
+  if (advanced.divergence) return speed;
   // The fastest of three: others on the machine only ever slow one down.
   std::uint64_t batch = 1;
   for (int repeat = 0; repeat < 3 && seconds > 0.0; ++repeat) {
@@ -39,9 +39,9 @@ Result<Speed> measured(const SharedModel& model, const BackendRow& row, double s
     double took = 0.0;
     for (const auto start = Clock::now(); took < seconds / 3;) {
       if (study.stopped()) return Error{ErrorCode::interrupted, "interrupted."};
-      ASPIC_TRY(divergence, solver.advance(batch));
+      ASPIC_TRY(advanced, solver.advance(batch));
       ASPIC_TRY(state, solver.state());  // waits for a device
-      if (divergence) return speed;
+      if (advanced.divergence) return speed;
       steps += batch;
       took = std::chrono::duration<double>(Clock::now() - start).count();
       if (took < 0.03 * seconds) batch *= 2;

@@ -133,10 +133,10 @@ Result<std::pair<State, double>> timed_run(const Study& study, const Smooth& smo
   for (int repeat = 0; repeat < 3; ++repeat) {
     ASPIC_CHECK(solver->load(smooth.start));
     const double before = thread_time();
-    ASPIC_TRY(const auto divergence, solver->advance(steps));
+    ASPIC_TRY(const auto advanced, solver->advance(steps));
     const double took = thread_time() - before;
     least = repeat == 0 ? took : std::min(least, took);
-    if (divergence || least > 0.1) break;
+    if (advanced.divergence || least > 0.1) break;
   }
   ASPIC_TRY(auto state, solver->state());
   return std::pair(std::move(state), least);
@@ -252,8 +252,8 @@ Result<Figure> free_energy_figure(const Study& study, const Smooth& smooth) {
       const double share = measure(model, state).total() / first;
       curves[m].points.push_back({static_cast<double>(step) * h, share});
       if (share > 10.0) break;
-      ASPIC_TRY(const auto divergence, solver->advance(1));
-      if (divergence) break;
+      ASPIC_TRY(const auto advanced, solver->advance(1));
+      if (advanced.divergence) break;
     }
     return {};
   };

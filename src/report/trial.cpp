@@ -69,7 +69,7 @@ Result<TrialResult> run_trial(SharedModel shared_model, const TrialOptions& opti
     result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     result.thread_seconds += thread_time() - thread_before;
     if (!advanced) return trial_error(advanced.error());
-    divergence = *advanced;
+    divergence = advanced->divergence;
     step = next;
   }
   if (divergence) {

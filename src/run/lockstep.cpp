@@ -56,14 +56,16 @@ Result<LockstepResult> compare_in_lockstep(Solver& first, Solver& second, std::u
     if (step == steps || result.interrupted) return result;
 
     for (Solver* const solver : {&first, &second}) ASPIC_CHECK(solver->set_inputs(inputs.at(a.step)));
-    ASPIC_TRY(result.divergence[0], first.advance(1));
+    ASPIC_TRY(const Advance one, first.advance(1));
+    result.divergence[0] = one.divergence;
     if (!apart) {
       ASPIC_TRY(const auto stepped, first.state());
       ASPIC_TRY(const auto untouched, second.state());
       if (!same_bits(untouched, b)) return one_state(first, second);
       apart = !same_bits(stepped, a);
     }
-    ASPIC_TRY(result.divergence[1], second.advance(1));
+    ASPIC_TRY(const Advance other, second.advance(1));
+    result.divergence[1] = other.divergence;
     if (result.divergence[0] || result.divergence[1]) return result;
   }
 }

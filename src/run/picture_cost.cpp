@@ -155,8 +155,9 @@ Result<PictureCost> measure_pictures(const Scene& scene, const BackendChoice& ch
     std::uint64_t step = 0;
     for (std::uint64_t frame = 0; frame < schedule.count(); ++frame) {
       if (interrupted()) return Error{ErrorCode::interrupted, "interrupted; nothing was measured."};
-      ASPIC_TRY(const auto divergence, solver.advance(schedule.step_of(frame) - step));
-      if (divergence) return fail(ErrorCode::diverged, "the scene diverged in step {}.", divergence->step);
+      ASPIC_TRY(const auto advanced, solver.advance(schedule.step_of(frame) - step));
+      if (advanced.divergence)
+        return fail(ErrorCode::diverged, "the scene diverged in step {}.", advanced.divergence->step);
       step = schedule.step_of(frame);
       if (frame % 2 == 0) {
         ASPIC_CHECK(meter.picture(cost));

@@ -78,11 +78,11 @@ std::uint64_t steps_of(const Model& model, double duration) {
   return static_cast<std::uint64_t>(std::lround(duration / model.simulation.timestep));
 }
 
-Status require_good(const Result<std::optional<Divergence>>& advanced) {
+Status require_good(const Result<Advance>& advanced) {
   if (!advanced) return advanced.error();
-  if (!advanced->has_value()) return {};
-  return fail(ErrorCode::check_failed, "diverged in step {} at particle {}", (*advanced)->step,
-              (*advanced)->particle);
+  if (!advanced->divergence) return {};
+  return fail(ErrorCode::check_failed, "diverged in step {} at particle {}", advanced->divergence->step,
+              advanced->divergence->particle);
 }
 
 Result<State> run(Solver& solver, std::uint64_t steps, const State* start) {

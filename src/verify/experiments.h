@@ -112,6 +112,6 @@ void add_for_each_integrator(std::vector<Check>& checks, const std::string& name
 }
 
 /// Error (check_failed) unless `advanced` is success without divergence.
-Status require_good(const Result<std::optional<Divergence>>& advanced);
+Status require_good(const Result<Advance>& advanced);
 
 }  // namespace aspic::verify

@@ -59,7 +59,7 @@ Result<double> growth(const Subject& subject, const Model& model, const WorstMod
     }
     const std::uint64_t stride = early || late ? 1 : steps - window - step;
     ASPIC_TRY(const auto advanced, solver->advance(stride));
-    if (advanced.has_value()) return std::numeric_limits<double>::infinity();
+    if (advanced.divergence) return std::numeric_limits<double>::infinity();
     step += stride - 1;
   }
   return last / first;

@@ -96,7 +96,7 @@ TEST_P(OutputOn, InputsRepeatTheRun) {
   ASSERT_TRUE(log.ok()) << log.error().message();
   EXPECT_EQ(log->entries().size(), 4u);
   const auto solver = std::move(make_reference_solver(model, Precision::single)).value();
-  ASSERT_FALSE((*advance(*solver, *log, 0, end)).has_value());
+  ASSERT_FALSE((*advance(*solver, *log, 0, end)).divergence.has_value());
   EXPECT_EQ(state_hash_text(*solver->state()), hash);
 
   // The checkpoint has the inputs up to its step, and the pull and the pin go on.
@@ -111,7 +111,7 @@ TEST_P(OutputOn, InputsRepeatTheRun) {
   EXPECT_EQ(kept->at(between).pulls.size(), 1u);
   // Opened in the window, both go on there too.
   const auto on = std::move(make_reference_solver(model, Precision::single)).value();
-  ASSERT_FALSE((*advance(*on, *kept, 0, between + 8)).has_value());
+  ASSERT_FALSE((*advance(*on, *kept, 0, between + 8)).divergence.has_value());
   app().scene.open("cube-sphere");
   app().scene.open(path("aspic-cube-plane-0001.aspic"));
   EXPECT_EQ(simulation().step(), between);

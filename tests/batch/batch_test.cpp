@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -87,7 +88,7 @@ TEST(Batch, EveryInstanceHasTheBitsOfItsModelAlone) {
   std::vector<std::unique_ptr<Solver>> solvers;
   for (const SharedModel& model : models) {
     solvers.push_back(alone(model));
-    ASSERT_FALSE(take(solvers.back()->advance(steps)).has_value());
+    ASSERT_FALSE(take(solvers.back()->advance(steps)).divergence.has_value());
   }
   for (const unsigned threads : {1u, 2u, 5u}) {
     SCOPED_TRACE(fmt::format("{} threads", threads));
@@ -114,7 +115,7 @@ TEST(Batch, ADivergedInstanceStopsAlone) {
     EXPECT_EQ(take(batch.advance(50)), 2u);
     for (std::size_t i = 0; i < models.size(); ++i) {
       const auto solver = alone(models[i]);
-      const auto divergence = take(solver->advance(250));
+      const auto divergence = take(solver->advance(250)).divergence;
       EXPECT_EQ(divergence.has_value(), i == 5 || i == 14);
       expect_equal(take(batch.divergence(i)), divergence);
       expect_equal(batch, i, *solver);
@@ -183,7 +184,7 @@ TEST(Batch, EachHasItsOwnInputsAndConstants) {
       EXPECT_EQ(take(batch.model(i)), next);
     }
     std::size_t diverged = 0;
-    for (const auto& solver : solvers) diverged += take(solver->advance(20)).has_value() ? 1 : 0;
+    for (const auto& solver : solvers) diverged += take(solver->advance(20)).divergence.has_value() ? 1 : 0;
     EXPECT_EQ(take(batch.advance(20)), diverged);
     EXPECT_TRUE(diverged > 0 || period == 0);
     for (std::size_t i = 0; i < batch.size(); ++i) expect_equal(batch, i, *solvers[i]);
@@ -214,6 +215,9 @@ TEST(Batch, LoadsAndReadsStates) {
   view[field_number("position")] = Strided<float>{places.data(), 63};
   EXPECT_EQ(batch.read_into(7, view).error().code, ErrorCode::usage);
   EXPECT_EQ(batch.load(7, State{}).error().code, ErrorCode::usage);
+  State broken = state;
+  broken.velocity[3].x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(batch.load(7, broken).error().message(), HasSubstr("the velocity of particle 3"));
   EXPECT_EQ(batch.load(7, ConstStateView{}, 0).error().code, ErrorCode::usage);
   EXPECT_THAT(batch.state(12).error().message(), HasSubstr("the batch has 12, numbered from 0"));
 }

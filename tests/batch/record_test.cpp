@@ -46,7 +46,7 @@ TEST(BatchRecord, HasTheFiguresOfEachRunAlone) {
     std::uint64_t step = 0;
     for (std::size_t n = 0; n < record.times; ++n) {
       const auto wanted = static_cast<std::uint64_t>(std::llround(times[n] / h));
-      const auto divergence = take(solver->advance(wanted - step));
+      const auto divergence = take(solver->advance(wanted - step)).divergence;
       step = wanted;
       const State state = take(solver->state());
       const std::size_t at = i * record.times + n;

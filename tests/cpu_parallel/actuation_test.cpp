@@ -36,11 +36,11 @@ TEST_P(EveryMethodWithActuators, HasTheReferencesBitsOnAnyNumberOfThreads) {
     const std::uint64_t steps = test::actuated_steps(GetParam());
     const auto expected = reference(model);
     ASSERT_TRUE(expected->set_inputs(inputs).ok());
-    ASSERT_FALSE((*expected->advance(steps)).has_value());
+    ASSERT_FALSE((*expected->advance(steps)).divergence.has_value());
     for (const unsigned threads : {1u, 3u}) {
       const auto cpu = std::move(*make_cpu_solver(model, {.threads = threads}));
       ASSERT_TRUE(cpu->set_inputs(inputs).ok());
-      ASSERT_FALSE((*cpu->advance(steps)).has_value());
+      ASSERT_FALSE((*cpu->advance(steps)).divergence.has_value());
       EXPECT_EQ(*cpu->state(), *expected->state()) << threads << " threads, " << name_of(contact);
     }
   }
@@ -51,14 +51,14 @@ TEST_P(EveryMethodWithActuators, AmplitudeZeroIsNoActuator) {
   if (GetParam() == Integrator::implicit_euler) settings.simulation.timestep = 0.01;
   const std::uint64_t steps = test::actuated_steps(GetParam());
   const auto passive = reference(test::build(settings));
-  ASSERT_FALSE((*passive->advance(steps)).has_value());
+  ASSERT_FALSE((*passive->advance(steps)).divergence.has_value());
   ActuatorSettings& actuator = settings.actuators.emplace_back();
   actuator.amplitude = 0.0;
   actuator.phase.along = BodyAxis::x;
   const Model model = test::build(settings);
   const auto acted = reference(model), cpu = std::move(*make_cpu_solver(model, {}));
   for (Solver* const solver : {acted.get(), cpu.get()}) {
-    ASSERT_FALSE((*solver->advance(steps)).has_value());
+    ASSERT_FALSE((*solver->advance(steps)).divergence.has_value());
     EXPECT_EQ(*solver->state(), *passive->state());
   }
 }
@@ -68,11 +68,11 @@ TEST_P(EveryMethodWithActuators, GoesOnWhereItWas) {
   const Model model = test::build(test::actuated(GetParam(), ContactModel::coulomb));
   const std::uint64_t steps = test::actuated_steps(GetParam());
   const auto whole = reference(model), first = reference(model);
-  ASSERT_FALSE((*whole->advance(steps)).has_value());
-  ASSERT_FALSE((*first->advance(steps / 3)).has_value());
+  ASSERT_FALSE((*whole->advance(steps)).divergence.has_value());
+  ASSERT_FALSE((*first->advance(steps / 3)).divergence.has_value());
   const auto second = std::move(*make_cpu_solver(model, {}));
   ASSERT_TRUE(second->load(*first->state()).ok());
-  ASSERT_FALSE((*second->advance(steps - steps / 3)).has_value());
+  ASSERT_FALSE((*second->advance(steps - steps / 3)).divergence.has_value());
   EXPECT_EQ(*second->state(), *whole->state());
 }
 
@@ -86,13 +86,13 @@ TEST_P(EveryMethodWithActuators, TakesOtherConstants) {
   const std::uint64_t steps = test::actuated_steps(GetParam()) / 2;
   for (const bool parallel : {false, true}) {
     const auto solver = parallel ? std::move(*make_cpu_solver(before, {})) : reference(before);
-    ASSERT_FALSE((*solver->advance(steps)).has_value());
+    ASSERT_FALSE((*solver->advance(steps)).divergence.has_value());
     const State middle = *solver->state();
     ASSERT_TRUE(solver->set_constants(shared(after)).ok());
-    ASSERT_FALSE((*solver->advance(steps)).has_value());
+    ASSERT_FALSE((*solver->advance(steps)).divergence.has_value());
     const auto fresh = reference(after);
     ASSERT_TRUE(fresh->load(middle).ok());
-    ASSERT_FALSE((*fresh->advance(steps)).has_value());
+    ASSERT_FALSE((*fresh->advance(steps)).divergence.has_value());
     EXPECT_EQ(*solver->state(), *fresh->state()) << parallel;
   }
 }
@@ -119,7 +119,7 @@ TEST_P(EveryMethodWithActuators, ConvergesWithItsOrder) {
     settings.simulation.integrator = method;
     settings.simulation.timestep = h;
     const auto solver = reference(test::build(settings), Precision::double_);
-    EXPECT_FALSE((*solver->advance(static_cast<std::uint64_t>(std::lround(0.4 / h)))).has_value());
+    EXPECT_FALSE((*solver->advance(static_cast<std::uint64_t>(std::lround(0.4 / h)))).divergence.has_value());
     return *solver->state();
   };
   const State exact = solve(Integrator::runge_kutta_4, 0.4 / 8192);
@@ -158,7 +158,7 @@ TEST(Actuated, EveryLaneOfAStackHasTheReferencesBits) {
     }
     for (int n = 0; n < 200; ++n) stack.advance();
     for (std::size_t lane = 0; lane < models.size(); ++lane) {
-      ASSERT_FALSE((*expected[lane]->advance(200)).has_value());
+      ASSERT_FALSE((*expected[lane]->advance(200)).divergence.has_value());
       State state;
       resize(state, models[lane]->particle_count(), 0);
       const ConstStateView from = stack.view(lane);
@@ -189,7 +189,7 @@ TEST(Actuated, AFreeBodyTakesTheSizeItsCellsWant) {
     actuator.table = {{0.0, 1.0}, {1.0, 1.0}};
     actuator.ramp = 0.2;
     const auto solver = reference(test::build(settings), Precision::double_);
-    ASSERT_FALSE((*solver->advance(400)).has_value());
+    ASSERT_FALSE((*solver->advance(400)).divergence.has_value());
     // It may have turned meanwhile; its springs know nothing of that.
     const State after = *solver->state();
     const std::vector<double> r = rest_lengths(solver->model(), after.step, 0.0, {});

@@ -153,7 +153,7 @@ TEST(BallFaces, KeepMomentumAndMakeNoEnergy) {
     const double energy = measure(model, start).total();
     bool struck = false;
     for (int n = 0; n < 60; ++n) {
-      ASSERT_FALSE((*solver->advance(20)).has_value());
+      ASSERT_FALSE((*solver->advance(20)).divergence.has_value());
       const State now = *solver->state();
       const Sums sums = sums_of(model, now);
       EXPECT_LT(length(sums.momentum - before.momentum), 1e4 * eps * before.size);
@@ -175,7 +175,7 @@ TEST(BallFaces, LetNothingPass) {
       const auto solver = std::move(*make_reference_solver(model, Precision::double_));
       const CubeSettings& cube = settings.cubes[0];
       for (int n = 0; n < 400; ++n) {
-        ASSERT_FALSE((*solver->advance(1)).has_value());
+        ASSERT_FALSE((*solver->advance(1)).divergence.has_value());
         const State now = *solver->state();
         for (const Vec3& x : now.ball_position) {
           // The cube's half edge is 0.5: its inscribed sphere holds no centre.

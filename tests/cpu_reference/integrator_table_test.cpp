@@ -75,7 +75,7 @@ TEST_P(IntegratorTable, StepMatrixIsOneStepOfTheSolver) {
         model.simulation.implicit.tolerance = 1e-15;
         auto solver = solver_for(model);
         ASSERT_TRUE(solver->set_inputs({{Pull{0, {}, kappa, gamma}}}).ok());
-        ASSERT_FALSE((*solver->advance(1)).has_value());
+        ASSERT_FALSE((*solver->advance(1)).divergence.has_value());
         const State end = *solver->state();
         const StepMatrix m = row().step_matrix(h, kappa, gamma);
         // Numbers up to κ·h and γ·h·q̇, a few roundings each.
@@ -146,7 +146,7 @@ TEST_P(IntegratorTable, ReportsSolvesWhereItsRowSaysSo) {
   Model model = test::particles({{0, 0, 0}}, {{0, 1, 0}});
   model.simulation.integrator = GetParam();
   const auto solver = solver_for(model);
-  ASSERT_FALSE((*solver->advance(2)).has_value());
+  ASSERT_FALSE((*solver->advance(2)).divergence.has_value());
   const auto solves = solver->solve_statistics();
   ASSERT_EQ(solves.has_value(), row().traits.reports_solves);
   EXPECT_EQ(solves ? solves->steps : 2, 2u);
@@ -162,7 +162,7 @@ TEST_P(IntegratorTable, KeepsAngularMomentumExactlyWhereItsRowSaysSo) {
   model.spring_classes.push_back({SpringType::structural, 50.0, 0.5, 1.0, false});
   model.listed_springs.push_back({0, 1, 0});
   auto solver = solver_for(model);
-  ASSERT_FALSE((*solver->advance(200)).has_value());
+  ASSERT_FALSE((*solver->advance(200)).divergence.has_value());
   const State end = *solver->state();
   const double change =
       cross(end.position[0], end.velocity[0]).z + cross(end.position[1], end.velocity[1]).z - 1.1;

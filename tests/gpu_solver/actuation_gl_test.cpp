@@ -40,12 +40,12 @@ TEST_F(ActuatedOnTheDevice, HasTheReferencesBits) {
     const Inputs inputs = {.channels = {0.4}};
     const auto expected = reference(model);
     ASSERT_TRUE(expected->set_inputs(inputs).ok());
-    ASSERT_FALSE((*expected->advance(steps)).has_value());
+    ASSERT_FALSE((*expected->advance(steps)).divergence.has_value());
     for (const ForcePathRow& path : force_paths()) {
       if (!works_with(path.path, integrator) || (!every && path.path != ForcePath::lattice)) continue;
       const auto gpu = solver(model, path.path);
       ASSERT_TRUE(gpu->set_inputs(inputs).ok());
-      ASSERT_FALSE((*gpu->advance(steps)).has_value());
+      ASSERT_FALSE((*gpu->advance(steps)).divergence.has_value());
       EXPECT_EQ(*gpu->state(), *expected->state()) << name_of(integrator) << ", " << path.name;
     }
   }
@@ -62,7 +62,7 @@ TEST_F(ActuatedOnTheDevice, CellsOfManyClassesHaveTheReferencesBits) {
   EXPECT_EQ((*gpu)->force_path(), ForcePath::lattice);
   const auto expected = reference(model);
   for (Solver* const each : {static_cast<Solver*>(gpu->get()), expected.get()})
-    ASSERT_FALSE((*each->advance(60)).has_value());
+    ASSERT_FALSE((*each->advance(60)).divergence.has_value());
   EXPECT_EQ(*(*gpu)->state(), *expected->state());
 }
 
@@ -81,14 +81,14 @@ TEST_F(ActuatedOnTheDevice, FollowsInputsConstantsAndLoads) {
     for (Solver* const each : {static_cast<Solver*>(gpu.get()), expected.get()}) {
       for (int n = 0; n < 5; ++n) {
         ASSERT_TRUE(each->set_inputs({.channels = {0.2 * n}}).ok());
-        ASSERT_FALSE((*each->advance(steps)).has_value());
+        ASSERT_FALSE((*each->advance(steps)).divergence.has_value());
       }
       ASSERT_TRUE(each->set_constants(shared(other)).ok());
-      ASSERT_FALSE((*each->advance(steps)).has_value());
+      ASSERT_FALSE((*each->advance(steps)).divergence.has_value());
       State state = *each->state();
       state.step = 7;
       ASSERT_TRUE(each->load(state).ok());
-      ASSERT_FALSE((*each->advance(steps)).has_value());
+      ASSERT_FALSE((*each->advance(steps)).divergence.has_value());
     }
     EXPECT_EQ(*gpu->state(), *expected->state()) << name_of(integrator);
   }
@@ -105,10 +105,10 @@ TEST_F(ActuatedOnTheDevice, HoldsAsManyClassesAsPhasesMake) {
   const Model model = test::build(settings);
   ASSERT_GT(model.spring_classes.size(), 640u);
   const auto expected = reference(model);
-  ASSERT_FALSE((*expected->advance(100)).has_value());
+  ASSERT_FALSE((*expected->advance(100)).divergence.has_value());
   for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
     const auto gpu = solver(model, path);
-    ASSERT_FALSE((*gpu->advance(100)).has_value());
+    ASSERT_FALSE((*gpu->advance(100)).divergence.has_value());
     EXPECT_EQ(*gpu->state(), *expected->state());
   }
 }

@@ -25,11 +25,11 @@ class BallsOnTheDevice : public aspic::testing::GlTest {
                            std::initializer_list<BallSearch> searches = {BallSearch::all_pairs,
                                                                          BallSearch::grid}) {
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
-    ASSERT_FALSE((*reference->advance(steps)).has_value());
+    ASSERT_FALSE((*reference->advance(steps)).divergence.has_value());
     const State expected = *reference->state();
     for (const BallSearch search : searches) {
       auto solver = solver_for(model, search);
-      ASSERT_FALSE((*solver->advance(steps)).has_value());
+      ASSERT_FALSE((*solver->advance(steps)).divergence.has_value());
       const State state = *solver->state();
       EXPECT_EQ(state_hash_text(state), state_hash_text(expected))
           << name_of(model.simulation.integrator) << ", " << name_of(model.contact.model) << ", search "
@@ -158,13 +158,13 @@ TEST_F(BallsOnTheDevice, SwitchingBackendsInMidRunChangesNothing) {
     settings.simulation.integrator = integrator;
     const Model model = test::build(settings);
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
-    ASSERT_FALSE((*reference->advance(200)).has_value());
+    ASSERT_FALSE((*reference->advance(200)).divergence.has_value());
     const State expected = *reference->state();
     auto first = std::move(make_reference_solver(model, Precision::single)).value();
-    ASSERT_FALSE((*first->advance(57)).has_value());
+    ASSERT_FALSE((*first->advance(57)).divergence.has_value());
     auto second = solver_for(model, BallSearch::automatic);
     ASSERT_TRUE(second->load(*first->state()).ok());
-    for (int part = 0; part < 11; ++part) ASSERT_FALSE((*second->advance(13)).has_value());
+    for (int part = 0; part < 11; ++part) ASSERT_FALSE((*second->advance(13)).divergence.has_value());
     EXPECT_EQ(*second->state(), expected);
   }
 }
@@ -175,8 +175,8 @@ TEST_F(BallsOnTheDevice, PerSpringPathCarriesThemToo) {
   const Model model = test::build(settings);
   auto gather = solver_for(model, BallSearch::automatic);
   auto springs = solver_for(model, BallSearch::automatic, ForcePath::per_spring);
-  ASSERT_FALSE((*gather->advance(300)).has_value());
-  ASSERT_FALSE((*springs->advance(300)).has_value());
+  ASSERT_FALSE((*gather->advance(300)).divergence.has_value());
+  ASSERT_FALSE((*springs->advance(300)).divergence.has_value());
   EXPECT_EQ(*gather->state(), *springs->state());
 }
 
@@ -193,12 +193,12 @@ TEST_F(BallsOnTheDevice, DivergenceNamesTheBallAndKeepsTheLastGoodState) {
     settings.simulation.timestep = 0.0005;
     const Model model = test::build(settings);
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
-    const auto expected = *reference->advance(100);
+    const auto expected = reference->advance(100)->divergence;
     ASSERT_TRUE(expected.has_value());
     EXPECT_EQ(body_text(*expected), "ball 1");
     for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {
       auto solver = solver_for(model, search);
-      const auto divergence = *solver->advance(100);
+      const auto divergence = solver->advance(100)->divergence;
       ASSERT_TRUE(divergence.has_value());
       EXPECT_EQ(divergence->step, expected->step);
       EXPECT_EQ(body_text(*divergence), "ball 1");
@@ -211,7 +211,7 @@ TEST_F(BallsOnTheDevice, DivergenceNamesTheBallAndKeepsTheLastGoodState) {
 TEST_F(BallsOnTheDevice, TheirBufferIsWhatItSays) {
   const Model model = test::build(net_under_fire(6, 0.01));
   auto solver = solver_for(model, BallSearch::automatic);
-  ASSERT_FALSE((*solver->advance(15)).has_value());
+  ASSERT_FALSE((*solver->advance(15)).divergence.has_value());
   const State state = *solver->state();
   const DeviceState where = solver->device_state();
   const auto numbers = where.balls->download_items<float>(std::uint64_t{16} * model.ball_count(),

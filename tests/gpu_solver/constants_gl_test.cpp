@@ -85,15 +85,15 @@ TEST_F(ConstantsOnTheDevice, AreThoseOfANewSolver) {
       const auto solver = make(before);
       SCOPED_TRACE(solver->backend());
       ASSERT_TRUE(solver->set_inputs(hands).ok());
-      ASSERT_FALSE((*solver->advance(steps)).has_value());
+      ASSERT_FALSE((*solver->advance(steps)).divergence.has_value());
       const State between = *solver->state();
       ASSERT_TRUE(solver->set_constants(after).ok());
       EXPECT_EQ(&solver->model(), after.get());
       EXPECT_EQ(*solver->state(), between);
       const auto fresh = make(after);
       ASSERT_TRUE(fresh->load(between).ok() && fresh->set_inputs(hands).ok());
-      ASSERT_FALSE((*solver->advance(steps)).has_value());
-      ASSERT_FALSE((*fresh->advance(steps)).has_value());
+      ASSERT_FALSE((*solver->advance(steps)).divergence.has_value());
+      ASSERT_FALSE((*fresh->advance(steps)).divergence.has_value());
       EXPECT_EQ(*solver->state(), *fresh->state());
       hashes.push_back(state_hash(*solver->state()));
     }
@@ -115,11 +115,11 @@ TEST_F(ConstantsOnTheDevice, EndADivergence) {
       ASSERT_TRUE(solver->set_inputs({{Pull{42, {1e6, 0.0, 0.0}, 500.0, 0.0}}}).ok());
       ASSERT_TRUE(solver->advance(50).ok());
       (void)solver->state();
-      ASSERT_TRUE((*solver->advance(1)).has_value());
+      ASSERT_TRUE((*solver->advance(1)).divergence.has_value());
       ASSERT_TRUE(solver->set_inputs({}).ok());
       ASSERT_TRUE(solver->set_constants(with_other_constants(*model, false)).ok());
       const std::uint64_t step = solver->state()->step;
-      ASSERT_FALSE((*solver->advance(10)).has_value());
+      ASSERT_FALSE((*solver->advance(10)).divergence.has_value());
       EXPECT_EQ(solver->state()->step, step + 10);
       hashes.push_back(state_hash(*solver->state()));
     }

@@ -62,7 +62,7 @@ class EqualBits : public aspic::testing::GlTest {
         options.lattice_run = group_size != group_sizes.begin()[0] ? 1 : 0;
         auto solver = make_gpu_solver(context(), model, options);
         ASSERT_TRUE(solver.ok()) << solver.error().message();
-        ASSERT_FALSE((*(*solver)->advance(steps)).has_value());
+        ASSERT_FALSE((*(*solver)->advance(steps)).divergence.has_value());
         const State state = *(*solver)->state();
         EXPECT_EQ(state_hash_text(state), state_hash_text(expected))
             << name_of(model.simulation.integrator) << ", " << name_of(model.contact.model) << ", path "
@@ -349,7 +349,7 @@ void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed
   model.contact.bodies = false;  // which needs complete states
   const std::uint64_t steps = solved ? 5 : 20;
   auto reference = std::move(make_reference_solver(model, Precision::single)).value();
-  ASSERT_FALSE((*reference->advance(steps)).has_value());
+  ASSERT_FALSE((*reference->advance(steps)).divergence.has_value());
   GpuOptions options = options_for_small_blocks(context);
   options.force_path = path;
   std::array<std::uint64_t, 2> dispatches = {};
@@ -363,9 +363,9 @@ void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed
       ASSERT_TRUE(solver.ok()) << solver.error().message();
       EXPECT_EQ((*solver)->bytes(), gpu_bytes(model, path, small ? block : UINT64_MAX));
       const std::uint64_t before = context.dispatches();
-      ASSERT_FALSE((*(*solver)->advance(1)).has_value());
+      ASSERT_FALSE((*(*solver)->advance(1)).divergence.has_value());
       dispatches[small] = context.dispatches() - before;
-      ASSERT_FALSE((*(*solver)->advance(steps - 1)).has_value());
+      ASSERT_FALSE((*(*solver)->advance(steps - 1)).divergence.has_value());
       EXPECT_EQ(*(*solver)->state(), *reference->state())
           << name_of(integrator) << ", " << name_of(path) << ", " << (small ? "windows" : "whole");
     }

@@ -17,10 +17,10 @@ namespace {
 class InputsOnTheDevice : public aspic::testing::GlTest {
  protected:
   static State run(Solver& solver, const InputLog& log, std::uint64_t steps) {
-    const auto divergence = advance(solver, log, 0, steps);
-    EXPECT_TRUE(divergence.ok()) << divergence.error().message();
-    if (divergence.ok()) {
-      EXPECT_FALSE(divergence->has_value());
+    const auto advanced = advance(solver, log, 0, steps);
+    EXPECT_TRUE(advanced.ok()) << advanced.error().message();
+    if (advanced.ok()) {
+      EXPECT_FALSE(advanced->divergence.has_value());
     }
     return *solver.state();
   }

@@ -58,17 +58,17 @@ TEST_F(LateGl, ADivergenceComesOutOfALaterAdvance) {
   const Model model = diverging();
   auto prompt = solver_for(model), late = solver_for(model);
   late->set_late(true);
-  const auto expected = *prompt->advance(100000);
+  const auto expected = prompt->advance(100000)->divergence;
   ASSERT_TRUE(expected.has_value());
   ASSERT_GT(expected->step, 3u);
-  ASSERT_FALSE((*late->advance(expected->step - 1)).has_value());
+  ASSERT_FALSE((*late->advance(expected->step - 1)).divergence.has_value());
   EXPECT_EQ(late->state()->step, expected->step - 1);
 
   context().inject_fault(Fault::late);
   // One step is one queue; how many queues more would make depends on the time they take.
-  ASSERT_FALSE((*late->advance(1)).has_value()) << "nothing has been heard of this step";
+  ASSERT_FALSE((*late->advance(1)).divergence.has_value()) << "nothing has been heard of this step";
   EXPECT_EQ(late->device_state().step, expected->step);
-  const auto found = *late->advance(1);
+  const auto found = late->advance(1)->divergence;
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->step, expected->step);
   EXPECT_EQ(found->particle, expected->particle);
@@ -77,12 +77,12 @@ TEST_F(LateGl, ADivergenceComesOutOfALaterAdvance) {
 
   // state() waits, and what it finds is told by the next call.
   ASSERT_TRUE(late->load(initial_state(model, Precision::single)).ok());
-  ASSERT_FALSE((*late->advance(expected->step - 1)).has_value());
+  ASSERT_FALSE((*late->advance(expected->step - 1)).divergence.has_value());
   ASSERT_TRUE(late->state().ok());
   context().inject_fault(Fault::late);
-  ASSERT_FALSE((*late->advance(1)).has_value());
+  ASSERT_FALSE((*late->advance(1)).divergence.has_value());
   EXPECT_EQ(*late->state(), *prompt->state());
-  EXPECT_EQ((*late->advance(0))->step, expected->step);
+  EXPECT_EQ((*late->advance(0)).divergence->step, expected->step);
 }
 
 // Contacts that find no room make steps be repeated, also those that a late look finds, under the pull they
@@ -100,8 +100,8 @@ TEST_F(LateGl, RepeatedStepsKeepTheirPull) {
     ASSERT_TRUE(late->set_inputs(inputs_of(pull)).ok());
     ASSERT_TRUE(reference->set_inputs(inputs_of(pull)).ok());
     context().inject_fault(Fault::late);
-    ASSERT_FALSE((*late->advance(4)).has_value());
-    ASSERT_FALSE((*reference->advance(4)).has_value());
+    ASSERT_FALSE((*late->advance(4)).divergence.has_value());
+    ASSERT_FALSE((*reference->advance(4)).divergence.has_value());
   }
   EXPECT_EQ(*late->state(), *reference->state());
 }
@@ -131,8 +131,8 @@ TEST_F(LateGl, ImplicitEulerQueuesBehindStepsOfWhichItHasNotHeard) {
         ASSERT_TRUE(reference->set_inputs(inputs_of(pull)).ok());
       }
       context().inject_fault(Fault::late, n % 3);
-      ASSERT_FALSE((*late->advance(1 + n % 3)).has_value());
-      ASSERT_FALSE((*reference->advance(1 + n % 3)).has_value());
+      ASSERT_FALSE((*late->advance(1 + n % 3)).divergence.has_value());
+      ASSERT_FALSE((*reference->advance(1 + n % 3)).divergence.has_value());
       context().take_back_faults();
       EXPECT_EQ(late->device_state().step, reference->state()->step);
     }
@@ -153,7 +153,7 @@ TEST_F(LateGl, ImplicitEulerReturnsBeforeTheDeviceIsDone) {
   auto late = solver_for(model);
   late->set_late(true);
   context().inject_fault(Fault::late);
-  ASSERT_FALSE((*late->advance(1)).has_value());
+  ASSERT_FALSE((*late->advance(1)).divergence.has_value());
   EXPECT_EQ(late->device_state().step, 1u);
   EXPECT_EQ(late->solve_statistics()->steps, 0u) << "nothing has been heard of it";
   ASSERT_TRUE(late->state().ok());
@@ -165,7 +165,7 @@ TEST_F(LateGl, NoMoreThanTwoQueuesAreUnderWay) {
   auto late = solver_for(model);
   late->set_late(true);
   context().inject_fault(Fault::late);
-  ASSERT_FALSE((*late->advance(1)).has_value());
+  ASSERT_FALSE((*late->advance(1)).divergence.has_value());
   // With a second one queued, the first is waited for, which takes a wait that never ends.
   context().inject_fault(Fault::late);
   context().inject_fault(Fault::no_answer);

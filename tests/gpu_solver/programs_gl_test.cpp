@@ -85,9 +85,9 @@ TEST_F(Programs, HaveTheReferencesBits) {
     auto solver = make_gpu_solver(context(), model, variant.options);
     ASSERT_TRUE(solver.ok()) << solver.error().message();
     if (context().programs().compiled() == before) continue;
-    const auto divergence = (*solver)->advance(variant.steps());
-    ASSERT_TRUE(divergence.ok()) << divergence.error().message();
-    ASSERT_FALSE(divergence->has_value());
+    const auto advanced = (*solver)->advance(variant.steps());
+    ASSERT_TRUE(advanced.ok()) << advanced.error().message();
+    ASSERT_FALSE(advanced->divergence.has_value());
     const test::GoldenRun run = test::golden_run(variant);
     const State state = *(*solver)->state();
     if (has_bits(variant)) {
@@ -138,8 +138,8 @@ TEST_F(Programs, ShowEachKernelThatDoesNothing) {
       ASSERT_TRUE(solver.ok()) << solver.error().message();
       if (idle_kernels == before) continue;
       ++variants;
-      const auto divergence = (*solver)->advance(variant.steps());
-      if (!divergence.ok() || divergence->has_value()) continue;
+      const auto advanced = (*solver)->advance(variant.steps());
+      if (!advanced.ok() || advanced->divergence.has_value()) continue;
       EXPECT_NE(state_hash_text(*(*solver)->state()), test::golden_end(test::golden_run(variant))->hash)
           << text_of(variant);
     }

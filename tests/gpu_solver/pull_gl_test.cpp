@@ -32,11 +32,11 @@ class PullOnTheDevice : public aspic::testing::GlTest {
   static State run(Solver& solver, const std::vector<Input>& inputs, std::uint64_t steps) {
     std::uint64_t at = solver.state()->step;
     for (const Input& input : inputs) {
-      EXPECT_FALSE((*solver.advance(input.step - at)).has_value());
+      EXPECT_FALSE((*solver.advance(input.step - at)).divergence.has_value());
       EXPECT_TRUE(solver.set_inputs(inputs_of(input.pull)).ok());
       at = input.step;
     }
-    EXPECT_FALSE((*solver.advance(steps - at)).has_value());
+    EXPECT_FALSE((*solver.advance(steps - at)).divergence.has_value());
     return *solver.state();
   }
 
@@ -73,7 +73,7 @@ void PullOnTheDevice::expect_the_references_bits(bool every_path) {
       auto reference = std::move(make_reference_solver(model, Precision::single)).value();
       const State expected = run(*reference, inputs, 8 * s);
       auto untouched = std::move(make_reference_solver(model, Precision::single)).value();
-      ASSERT_FALSE((*untouched->advance(8 * s)).has_value());
+      ASSERT_FALSE((*untouched->advance(8 * s)).divergence.has_value());
       double moved = 0.0;
       for (std::size_t i = 0; i < expected.position.size(); ++i)
         moved = std::max(moved, length(expected.position[i] - untouched->state()->position[i]));
@@ -125,7 +125,7 @@ void PullOnTheDevice::expect_the_references_bits_of_balls(bool both_spins) {
         EXPECT_EQ(run(*solver, inputs, 6 * s), expected)
             << name_of(integrator) << ", " << name_of(contact) << ", spin " << spin;
         auto untouched = std::move(make_reference_solver(model, Precision::single)).value();
-        ASSERT_FALSE((*untouched->advance(6 * s)).has_value());
+        ASSERT_FALSE((*untouched->advance(6 * s)).divergence.has_value());
         for (std::size_t b = 0; b < 2; ++b)
           EXPECT_GT(length(expected.ball_position[b] - untouched->state()->ball_position[b]), 0.05);
       }
@@ -149,10 +149,11 @@ TEST_F(PullOnTheDevice, HoldsOverBatchesAndLoad) {
     auto whole = solver_for(model), split = solver_for(model);
     ASSERT_TRUE(whole->set_inputs(inputs_of(pull)).ok());
     ASSERT_TRUE(split->set_inputs(inputs_of(pull)).ok());
-    ASSERT_FALSE((*whole->advance(60)).has_value());
-    for (const std::uint64_t steps : {1u, 7u, 22u}) ASSERT_FALSE((*split->advance(steps)).has_value());
+    ASSERT_FALSE((*whole->advance(60)).divergence.has_value());
+    for (const std::uint64_t steps : {1u, 7u, 22u})
+      ASSERT_FALSE((*split->advance(steps)).divergence.has_value());
     ASSERT_TRUE(split->load(*split->state()).ok());
-    ASSERT_FALSE((*split->advance(30)).has_value());
+    ASSERT_FALSE((*split->advance(30)).divergence.has_value());
     EXPECT_EQ(*split->state(), *whole->state());
   }
 }
@@ -166,10 +167,10 @@ TEST_F(PullOnTheDevice, DivergesWhereTheReferenceDoes) {
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
     auto solver = solver_for(model);
     for (Solver* each : {static_cast<Solver*>(reference.get()), static_cast<Solver*>(solver.get())}) {
-      ASSERT_FALSE((*each->advance(5)).has_value());
+      ASSERT_FALSE((*each->advance(5)).divergence.has_value());
       ASSERT_TRUE(each->set_inputs(inputs_of(pull)).ok());
     }
-    const auto expected = *reference->advance(100), found = *solver->advance(100);
+    const auto expected = reference->advance(100)->divergence, found = solver->advance(100)->divergence;
     ASSERT_TRUE(expected && found) << name_of(integrator);
     EXPECT_EQ(found->step, expected->step);
     EXPECT_EQ(found->particle, expected->particle);
@@ -191,8 +192,8 @@ TEST_F(PullOnTheDevice, AtItsAnchorAndOnAPinnedParticleItDoesNothing) {
     const State start = initial_state(model, Precision::single);
     auto free = solver_for(model), held = solver_for(model);
     ASSERT_TRUE(held->set_inputs({{Pull{pinned, {50.0, 3.0, 0.0}, 1000.0, 10.0}}}).ok());
-    ASSERT_FALSE((*free->advance(20)).has_value());
-    ASSERT_FALSE((*held->advance(20)).has_value());
+    ASSERT_FALSE((*free->advance(20)).divergence.has_value());
+    ASSERT_FALSE((*held->advance(20)).divergence.has_value());
     EXPECT_EQ(held->state()->position[pinned], start.position[pinned]);
     EXPECT_EQ(*held->state(), *free->state());
 
@@ -201,7 +202,7 @@ TEST_F(PullOnTheDevice, AtItsAnchorAndOnAPinnedParticleItDoesNothing) {
     still.simulation.integrator = integrator;
     auto alone = solver_for(still);
     ASSERT_TRUE(alone->set_inputs({{Pull{0, {1.0, 2.0, 3.0}, 1e6, 1e3}}}).ok());
-    ASSERT_FALSE((*alone->advance(10)).has_value());
+    ASSERT_FALSE((*alone->advance(10)).divergence.has_value());
     EXPECT_EQ(alone->state()->position, initial_state(still, Precision::single).position);
   }
 }
@@ -214,8 +215,8 @@ TEST_F(PullOnTheDevice, RefusedPullLeavesTheOneBefore) {
   ASSERT_TRUE(other->set_inputs(inputs_of(pull)).ok());
   EXPECT_EQ(solver->set_inputs({{Pull{64, {}, 1.0, 1.0}}}).error().code, ErrorCode::usage);
   EXPECT_EQ(solver->set_inputs({{Pull{1, {}, -1.0, 1.0}}}).error().code, ErrorCode::usage);
-  ASSERT_FALSE((*solver->advance(30)).has_value());
-  ASSERT_FALSE((*other->advance(30)).has_value());
+  ASSERT_FALSE((*solver->advance(30)).divergence.has_value());
+  ASSERT_FALSE((*other->advance(30)).divergence.has_value());
   EXPECT_EQ(*solver->state(), *other->state());
 }
 

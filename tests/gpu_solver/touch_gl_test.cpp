@@ -18,7 +18,7 @@ using test::pile;
 
 State by_reference(const Model& model, std::uint64_t steps) {
   const auto solver = std::move(*make_reference_solver(model, Precision::single));
-  EXPECT_FALSE((*solver->advance(steps)).has_value());
+  EXPECT_FALSE((*solver->advance(steps)).divergence.has_value());
   return *solver->state();
 }
 
@@ -33,8 +33,8 @@ class Touching : public testing::GlTest {
   }
   State by_device(const Model& model, std::uint64_t steps, ForcePath path = ForcePath::automatic) {
     const auto solver = gpu(model, path);
-    const auto divergence = solver->advance(steps);
-    EXPECT_TRUE(divergence.ok()) << (divergence.ok() ? "" : divergence.error().message());
+    const auto advanced = solver->advance(steps);
+    EXPECT_TRUE(advanced.ok()) << (advanced.ok() ? "" : advanced.error().message());
     return *solver->state();
   }
   void expect_the_references_bits(const ForcePathRow& path, ContactModel contact);

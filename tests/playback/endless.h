@@ -20,9 +20,9 @@ class Endless : public Solver {
   Precision precision() const override { return inner_->precision(); }
   const Model& model() const override { return inner_->model(); }
   std::uint64_t bytes() const override { return inner_->bytes(); }
-  Result<std::optional<Divergence>> advance(std::uint64_t) override {
+  Result<Advance> advance(std::uint64_t) override {
     while (!interrupted()) std::this_thread::yield();
-    return std::optional<Divergence>();
+    return ended(0, 1, {});
   }
 
  private:
@@ -31,7 +31,9 @@ class Endless : public Solver {
   }
   Result<std::uint64_t> give_state(const StateView& view) override { return inner_->read_into(view); }
   Status take_inputs(const Inputs& inputs) override { return inner_->set_inputs(inputs); }
-  Status take_constants(SharedModel model) override { return inner_->set_constants(std::move(model)); }
+  Status take_constants(SharedModel model, std::uint64_t) override {
+    return inner_->set_constants(std::move(model));
+  }
   std::unique_ptr<Solver> inner_;
 };
 

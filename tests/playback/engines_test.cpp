@@ -91,7 +91,7 @@ class Cancelling final : public Endless {
  public:
   Cancelling(std::unique_ptr<Solver> inner, std::atomic<bool>& cancelled)
       : Endless(std::move(inner)), cancelled_(cancelled) {}
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
+  Result<Advance> advance(std::uint64_t steps) override {
     cancelled_ = true;
     return Endless::advance(steps);
   }

@@ -5,8 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cfenv>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <thread>
 
@@ -168,16 +171,117 @@ TEST(Backends, AnInterruptedStepIsDroppedAndTheRunGoesOnWithItsBits) {
         begun = 1;
         const auto advanced = solver.advance(1'000'000'000);
         ASSERT_TRUE(advanced.ok());
-        EXPECT_FALSE(advanced->has_value()) << "an interruption is no divergence";
+        EXPECT_FALSE(advanced->divergence.has_value()) << "an interruption is no divergence";
+        EXPECT_TRUE(advanced->stopped);
+        EXPECT_EQ(advanced->steps, solver.state()->step);
       }
-      ASSERT_TRUE(solver.advance(5).ok());
+      EXPECT_EQ(*solver.advance(5), (Advance{0, {}, true}));
       const std::uint64_t step = solver.state()->step;
       flag = false;
-      ASSERT_TRUE(solver.advance(3).ok());
+      EXPECT_EQ(*solver.advance(3), Advance{3});
       const auto other = make_backend({&reference_backend()}, *model);
       ASSERT_TRUE(other->solver->advance(step + 3).ok());
       EXPECT_EQ(state_hash_text(*solver.state()), state_hash_text(*other->solver->state()))
           << row.name << ", " << integrator << ", interrupted after " << step;
+    }
+  }
+}
+
+/// Every backend that needs no device, with a cube that touches itself, in every precision that it has.
+std::vector<Backend> contextless(const ModelSettings& settings) {
+  std::vector<Backend> all;
+  const auto model = make_model(settings);
+  EXPECT_TRUE(model.ok());
+  for (const BackendRow& row : backends()) {
+    if (row.needs_context) continue;
+    for (const Precision precision : {Precision::single, Precision::double_}) {
+      auto made = make_backend({&row, precision}, *model);
+      if (made) all.push_back(std::move(*made));
+    }
+  }
+  EXPECT_GE(all.size(), 3u);
+  return all;
+}
+
+TEST(Backends, AStoppedReplayKeepsTheInputsOfItsStep) {
+  const auto scene = load_scene("cube-plane");
+  InputLog log;
+  log.set(0, {.pinned = {1}});
+  log.set(10, {.pinned = {2}});
+  for (const Backend& backend : contextless(scene->model)) {
+    Solver& solver = *backend.solver;
+    std::atomic<bool> flag = true;
+    solver.set_stop_flag(&flag);
+    EXPECT_EQ(*advance(solver, log, 0, 100), (Advance{0, {}, true})) << backend.variant();
+    EXPECT_EQ(solver.inputs().pinned, std::vector<std::uint32_t>{1}) << "those of a later step";
+    flag = false;
+    EXPECT_EQ(*advance(solver, log, 0, 15), Advance{15});
+    EXPECT_EQ(solver.inputs().pinned, std::vector<std::uint32_t>{2});
+  }
+}
+
+TEST(Backends, ADivergenceEndsAReplayAtItsStep) {
+  const std::vector<std::string> set = {"simulation.timestep=0.05"};
+  const auto scene = load_scene("cube-plane", set);
+  InputLog log;
+  log.set(3, {.pinned = {2}});
+  for (const Backend& backend : contextless(scene->model)) {
+    const auto made = advance(*backend.solver, log, 0, 100000);
+    ASSERT_TRUE(made.ok() && made->divergence) << backend.variant();
+    EXPECT_EQ(made->steps, made->divergence->step - 1);
+    EXPECT_EQ(made->steps, backend.solver->state()->step);
+    EXPECT_FALSE(made->stopped);
+  }
+}
+
+TEST(Backends, RefuseStatesThatAreNotFinite) {
+  const std::vector<std::string> set = {"contact.self=true", "cube[0].particles-per-edge=4"};
+  auto scene = load_scene("cube-plane", set);
+  scene->model.balls.emplace_back();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = HUGE_VAL;
+  for (const Backend& backend : contextless(scene->model)) {
+    Solver& solver = *backend.solver;
+    ASSERT_TRUE(solver.advance(2).ok());
+    const State before = *solver.state();
+    for (const StateField& field : state_fields) {
+      for (const double bad : {nan, inf, -inf, 1e300}) {
+        const bool finite = bad == 1e300 && solver.precision() == Precision::double_;
+        for (const bool all : {false, true}) {
+          State state = before;
+          auto& vectors = state.*field.vectors;
+          for (std::size_t i = all ? 0 : vectors.size() - 1; i < vectors.size(); ++i) vectors[i].y = bad;
+          const Status loaded = solver.load(state);
+          ASSERT_EQ(loaded.ok(), finite) << backend.variant() << ", " << field.name << " " << bad;
+          if (finite) {
+            ASSERT_TRUE(solver.load(before).ok());
+            continue;
+          }
+          EXPECT_EQ(loaded.error().code, ErrorCode::usage);
+          EXPECT_NE(loaded.error().what.find(field.name), std::string::npos) << loaded.error().what;
+          EXPECT_EQ(*solver.state(), before) << "a refused state changes nothing";
+        }
+      }
+    }
+  }
+}
+
+TEST(Backends, AnotherTimeStepKeepsTheTime) {
+  const auto scene = load_scene("elevator");
+  for (const double factor : {0.5, 2.0, 0.3}) {
+    ModelSettings other = scene->model;
+    other.simulation.timestep *= factor;
+    const auto model = make_model(other);
+    for (const Backend& backend : contextless(scene->model)) {
+      Solver& solver = *backend.solver;
+      ASSERT_EQ(*solver.advance(700), Advance{700});
+      const State before = *solver.state();
+      ASSERT_TRUE(solver.set_constants(*model).ok());
+      EXPECT_EQ(solver.state()->step, step_at_same_time(700, 1.0, factor)) << backend.variant();
+      ASSERT_EQ(*solver.advance(2), Advance{2});
+      const State after = *solver.state();
+      // The plate moves at up to 1 m/s; where time jumped it was half a metre.
+      for (std::size_t i = 0; i < before.position.size(); ++i)
+        ASSERT_LT(std::abs(after.position[i].y - before.position[i].y), 0.02) << backend.variant();
     }
   }
 }

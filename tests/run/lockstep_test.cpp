@@ -23,10 +23,10 @@ class Stepper final : public Solver {
   Precision precision() const override { return Precision::double_; }
   const Model& model() const override { return model_; }
   std::uint64_t bytes() const override { return 0; }
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
+  Result<Advance> advance(std::uint64_t steps) override {
     state_.step += steps;
     if (state_.step > still_) state_.position[0].x += static_cast<double>(steps);
-    return std::optional<Divergence>();
+    return Advance{steps};
   }
 
  private:
@@ -42,7 +42,7 @@ class Stepper final : public Solver {
     return state_.step;
   }
   Status take_inputs(const Inputs&) override { return {}; }
-  Status take_constants(SharedModel) override { return {}; }
+  Status take_constants(SharedModel, std::uint64_t) override { return {}; }
   const Model& model_;
   State& state_;
   std::uint64_t still_;

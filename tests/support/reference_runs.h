@@ -20,7 +20,7 @@ inline std::unique_ptr<Solver> solver_for(const Model& model, Precision precisio
 
 /// The state after further steps, none of which diverges.
 inline State advanced(Solver& solver, std::uint64_t steps) {
-  const auto divergence = *solver.advance(steps);
+  const auto divergence = solver.advance(steps)->divergence;
   EXPECT_FALSE(divergence.has_value());
   return *solver.state();
 }

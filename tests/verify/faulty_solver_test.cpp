@@ -27,7 +27,7 @@ class FaultySolver final : public Solver {
   Precision precision() const override { return inner_->precision(); }
   const Model& model() const override { return right_; }
   std::uint64_t bytes() const override { return inner_->bytes(); }
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) override { return inner_->advance(steps); }
+  Result<Advance> advance(std::uint64_t steps) override { return inner_->advance(steps); }
   std::optional<SolveStatistics> solve_statistics() override { return inner_->solve_statistics(); }
 
  private:
@@ -36,7 +36,9 @@ class FaultySolver final : public Solver {
   }
   Result<std::uint64_t> give_state(const StateView& view) override { return inner_->read_into(view); }
   Status take_inputs(const Inputs& inputs) override { return inner_->set_inputs(inputs); }
-  Status take_constants(SharedModel model) override { return inner_->set_constants(std::move(model)); }
+  Status take_constants(SharedModel model, std::uint64_t) override {
+    return inner_->set_constants(std::move(model));
+  }
   const Model& right_;
   std::unique_ptr<Model> wrong_;
   std::unique_ptr<Solver> inner_;
