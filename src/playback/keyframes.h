@@ -2,18 +2,19 @@
 // States of a run that are kept, packed.
 #include <cstdint>
 #include <deque>
+#include <variant>
 #include <vector>
 
 #include "aspic/state.h"
 
 namespace aspic {
 
-/// A single-precision state, packed.
+/// A state, packed in its own precision.
 struct Keyframe {
   std::uint64_t step = 0;
   std::uint32_t particles = 0, balls = 0;
-  std::vector<float> numbers;  ///< as for_each_vector() meets them
-  std::uint64_t bytes() const { return sizeof(Keyframe) + sizeof(float) * numbers.size(); }
+  std::variant<std::vector<float>, std::vector<double>> numbers;  ///< as for_each_vector() meets them
+  std::uint64_t bytes() const;
 };
 
 Keyframe pack(const State& state);
@@ -29,16 +30,16 @@ class Keyframes {
   bool add(const State& state);
   /// The newest at or before `step`, which is none before the first one's.
   const Keyframe& before(std::uint64_t step) const;
-  void drop_first() { frames_.pop_front(); }
+  void drop_first();
   /// Drops every second one; the first stays.
   void thin();
   /// Drops those after `step`; the first stays.
   void forget_after(std::uint64_t step);
-  /// Not empty. All hold as many numbers, for a setup has as many bodies throughout.
-  std::uint64_t bytes() const { return frames_.size() * frames_.front().bytes(); }
+  std::uint64_t bytes() const { return bytes_; }
 
  private:
   std::deque<Keyframe> frames_;
+  std::uint64_t bytes_ = 0;  // of frames_
 };
 
 }  // namespace aspic

@@ -104,10 +104,9 @@ Rebuild::Change Rebuild::begin_change(Setup setup, bool keep_state) const {
     change.setup.thrown.clear();
     change.setup.pinned.clear();
   }
-  const double h = now.settings.simulation.timestep, other = change.setup.settings.simulation.timestep;
   // Time continues from where it was, in steps of the new length.
-  if (const double t = present_.time() / other; h != other && t < 0x1p62)
-    change.state.step = static_cast<std::uint64_t>(std::llround(t));
+  change.state.step = step_at_same_time(change.state.step, now.settings.simulation.timestep,
+                                        change.setup.settings.simulation.timestep);
   for (Ball& ball : change.setup.thrown) ball.launch_step = std::min(ball.launch_step, change.state.step);
   const std::size_t balls = change.scene_balls + std::min(change.setup.thrown.size(), now.thrown.size());
   change.state.ball_position.resize(balls);
@@ -161,7 +160,7 @@ Status Rebuild::reset() {
   stepper_.acts().hand.reset();  // its particle may be no more
   stepper_.acts().channels.clear();
   stepper_.forget_resumed();
-  const State start = initial_state(present_.model(), Precision::single);
+  const State start = initial_state(present_.model(), present_.engines().leader().solver->precision());
   ASPIC_CHECK(begin_stretch(start));
   figures_.remember(start, {present_.engines().measured(start)});
   return {};

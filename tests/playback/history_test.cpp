@@ -44,6 +44,11 @@ TEST(History, PackingAStateKeepsEveryBit) {
   EXPECT_EQ(back, s);
   EXPECT_EQ(state_hash(back), state_hash(s));
   EXPECT_TRUE(std::signbit(back.position[2].y));
+  State exact = s;
+  exact.precision = Precision::double_;
+  exact.position[1].x = 0.1;
+  EXPECT_EQ(unpack(pack(exact)), exact);
+  EXPECT_EQ(state_hash(unpack(pack(exact))), state_hash(exact));
 }
 
 TEST(History, StepsBackAndForthAcrossAChangeOfSetup) {
