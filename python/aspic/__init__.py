@@ -10,12 +10,16 @@ Importing opens no display, makes no OpenGL context and starts no thread. docs/p
 numbers are in SI units.
 """
 
+import atexit
+
+from . import _interpreter  # first: it refuses sub-interpreters
 from . import _aspic
 from ._batch import Batch, Instance
 from ._body import Ball, Body, Skin
 from ._devices import Device, devices
 from ._errors import (
     CheckError,
+    ConvergenceWarning,
     DeviceError,
     DivergedError,
     Error,
@@ -24,12 +28,13 @@ from ._errors import (
     InterruptedRun,
     OverlapWarning,
     SceneError,
+    StepWarning,
     UsageError,
 )
 from ._inputs import Pull
 from ._reading import Measures, Quantities, Springs
 from ._scene import BuiltinScene, Parameter, Scene, load, parameters, scenes
-from ._simulation import Simulation, resume
+from ._simulation import Advance, Simulation, SolveStatistics, resume
 from ._state import Difference, QuantityDifference, State, compare
 from ._sweep import sweep
 from ._table import Table, collect
@@ -37,13 +42,18 @@ from ._trajectory import BatchTrajectory, Energy, Trajectory
 
 __version__: str = _aspic.version
 
+# Threads in a call of the library would be ended within it.
+atexit.register(_aspic.end)
+
 __all__ = [
+    "Advance",
     "Ball",
     "Batch",
     "BatchTrajectory",
     "Body",
     "BuiltinScene",
     "CheckError",
+    "ConvergenceWarning",
     "Device",
     "DeviceError",
     "Difference",
@@ -64,8 +74,10 @@ __all__ = [
     "SceneError",
     "Simulation",
     "Skin",
+    "SolveStatistics",
     "Springs",
     "State",
+    "StepWarning",
     "Table",
     "Trajectory",
     "UsageError",

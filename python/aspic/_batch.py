@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, SupportsIndex, Union
 
 from . import _aspic
 from ._body import body_index
-from ._errors import DivergedError, UsageError, diverged
+from ._errors import DivergedError, Unshared, UsageError, diverged
 from ._inputs import Steerable
-from ._scene import Scene, assignments, load
+from ._numbers import positive, whole
+from ._scene import Scene, changes, load
 from ._state import State, field_index
 from ._trajectory import BatchTrajectory, Energy
 
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
 __all__ = ["Batch", "Instance"]
 
 Path = Union[str, "os.PathLike[str]"]
+
+MOST = 10_000_000
+"""Instances of one scene."""
 
 # What may be recorded of all particles of an instance.
 _OF_ALL = ("centre-of-mass", "momentum", "energy", "actuator-work")
@@ -55,7 +59,7 @@ class Instance(Steerable):
         ``values``, and what it raises: as ``Simulation.update()``. An instance with another time step than those it is
         computed with becomes slower.
         """
-        self._core.update(assignments(values))
+        self._core.update(changes(values))
 
     def save(self) -> State:
         """A copy of the state with the present inputs, for ``load()``, also that of a Simulation."""
@@ -66,6 +70,8 @@ class Instance(Steerable):
 
         Raises UsageError.
         """
+        if not isinstance(state, State):
+            raise UsageError(f"load() takes a State, as save() returns, not {type(state).__name__}")
         self._core.load(state._core, state._log)
 
     def render(
@@ -93,12 +99,12 @@ class _Drawer:
 
         scene = instance.scene
         if self._shown is None or self._shown[0] != scene.toml:
-            self._shown = (scene.toml, Simulation(scene, "cpu", threads=1))
+            self._shown = (scene.toml, Simulation._quiet(scene, "cpu", threads=1))
         self._shown[1].load(instance.save())
         return self._shown[1]
 
 
-class Batch:
+class Batch(Unshared):
     """Many scenes that are stepped together on the CPU, equal ones and others in any mixture, without contact.
 
     Instance i ends with the bits that ``Simulation(scenes[i])`` has, whatever the others are and however many threads
@@ -130,16 +136,13 @@ class Batch:
                 "on a GPU yet; single simulations have all backends, and end with the same bits"
             )
         if isinstance(scenes, (Scene, str, os.PathLike)):
-            copies = 1 if count is None else operator.index(count)
-            if copies < 1:
-                raise UsageError(f"a batch has at least one instance, not {copies}")
+            copies = 1 if count is None else whole(count, "count, a number of instances,", least=1, most=MOST)
             wanted: list[Scene | Path] = [scenes] * copies
         elif count is not None:
             raise UsageError("count belongs to a single scene: a list has as many instances as scenes")
         else:
             wanted = list(scenes)
-        if not 0 <= threads <= 1024:
-            raise UsageError(f"a number of threads is 1 to 1024, or 0 for that of processors, not {threads}")
+        threads = whole(threads, "a number of threads (0: as many as processors)", most=1024)
         numbers: dict[Any, int] = {}
         cores: list[_aspic.Scene] = []
         which: list[int] = []
@@ -185,9 +188,7 @@ class Batch:
         Ctrl-C (KeyboardInterrupt) and ``stop()`` (InterruptedRun) leave every instance at the end of a step, but not
         all of the same, since instances are stepped in groups: ``steps`` says which, and some may not have begun.
         """
-        if steps < 0:
-            raise UsageError(f"a number of steps is 0 or more, not {steps}")
-        return self._core.advance(steps)
+        return self._core.advance(whole(steps, "a number of steps"))
 
     def run(
         self, duration: float, *, every: float | None = None, record: str | Sequence[str] = ("centre-of-mass",)
@@ -204,8 +205,9 @@ class Batch:
         which. Ctrl-C and ``stop()`` act as in ``step()``, and the record is lost.
         """
         names = [record] if isinstance(record, str) else list(record)
-        if every is not None and not every > 0:
-            raise UsageError(f"an interval of samples is more than 0 s, not {every}")
+        positive(duration, "duration [s]", zero=True)
+        if every is not None:
+            positive(every, "every, the interval of samples [s],")
         body, kinds = self._wanted(names)
         interval = every if every is not None else duration if duration > 0 else 1.0
         centre, momentum, energy, actuators = (kind in kinds for kind in _OF_ALL)

@@ -6,7 +6,8 @@ import shlex
 from typing import TYPE_CHECKING
 
 from ._errors import SceneError
-from ._scene import Scene, assignments, load, scenes
+from ._scene import Scene, load, scenes
+from ._toml import assignments
 
 if TYPE_CHECKING:
     from ._simulation import Simulation
@@ -35,7 +36,7 @@ def page_command(sim: Simulation, steps: int, words: list[str]) -> str:
     changed = differences(sim.scene) if sim.steps == 0 and "fast" not in sim.backend else None
     if changed is None:
         return ""
-    start = type(sim)(sim.scene, "reference", precision="double" if sim.precision == "double" else "single")
+    start = sim._quiet(sim.scene, "reference", doubles=sim.precision == "double")
     if (start.hash, start.input_log) != (sim.hash, sim.input_log) or start._core.inputs() != sim._core.inputs():
         return ""
     command = ["aspic", "run", sim.scene.name]

@@ -13,7 +13,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv  # type: ignore[import-not
 from gymnasium.vector.utils import batch_space  # type: ignore[import-not-found, unused-ignore]
 
 from ._batch import Batch, Instance
-from ._errors import UsageError
+from ._errors import Unshared, UsageError
 from ._scene import Scene, load
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ __all__ = ["BatchEnv", "SingleEnv"]
 Path = Union[str, "os.PathLike[str]"]
 
 
-class BatchEnv(VectorEnv):  # type: ignore[misc, type-arg, unused-ignore]
+class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-ignore]
     """The n instances of a batch as environments. Derive from it, and say what acts, what is seen and what it is worth.
 
     ``act()``, ``observe()`` and ``judge()`` are yours; ``begin()`` and ``figures()`` may be. They work with
@@ -280,7 +280,7 @@ def _infos(figures: dict[str, NDArray[Any]], mask: NDArray[np.bool_]) -> dict[st
     return infos
 
 
-class SingleEnv(gymnasium.Env):  # type: ignore[misc, type-arg, unused-ignore]
+class SingleEnv(Unshared, gymnasium.Env):  # type: ignore[misc, type-arg, unused-ignore]
     """A single environment: a BatchEnv of one, for what takes no vectors. Many in one BatchEnv are faster."""
 
     metadata: dict[str, Any] = BatchEnv.metadata

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import enum
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 if TYPE_CHECKING:
     from ._trajectory import Trajectory
 
 __all__ = [
     "CheckError",
+    "ConvergenceWarning",
     "DeviceError",
     "DivergedError",
     "Error",
@@ -19,6 +20,7 @@ __all__ = [
     "InterruptedRun",
     "OverlapWarning",
     "SceneError",
+    "StepWarning",
     "UsageError",
 ]
 
@@ -90,6 +92,12 @@ class InterruptedRun(Error, RuntimeError):
     """The library was asked to end. Ctrl-C raises ``KeyboardInterrupt`` instead."""
 
     code = ErrorCode.INTERRUPTED
+    trajectory: Trajectory | None = None
+    """What ``Simulation.run()`` had recorded."""
+
+
+class ConvergenceWarning(UserWarning):
+    """Steps of implicit Euler ended before the solve had converged: the first ones of a simulation."""
 
 
 class OverlapWarning(UserWarning):
@@ -100,6 +108,20 @@ _classes: dict[int, type[Error]] = {
     int(kind.code): kind
     for kind in (UsageError, SceneError, DeviceError, DivergedError, FileError, CheckError, InterruptedRun)
 }
+
+
+class StepWarning(UserWarning):
+    """The time step is above the estimate of the largest stable one, or may be."""
+
+
+class Unshared:
+    """What refers to a solver or a batch, of which there is one: it cannot be copied or pickled."""
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        raise TypeError(
+            f"{type(self).__name__} objects cannot be copied or pickled: make another one of the same scene, and "
+            "load() there the State that save() returns here"
+        )
 
 
 def error_of(code: int, message: str) -> Error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import operator
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
@@ -33,6 +34,23 @@ class Pull(NamedTuple):
     """Pulls the centre of a ball instead of a particle."""
 
 
+def _row(pull: Pull) -> tuple[int, tuple[float, float, float], float, float, bool]:
+    """As the extension module takes it. Raises UsageError."""
+    if not isinstance(pull, Pull):
+        raise UsageError(f"a pull is an aspic.Pull(particle, anchor, stiffness), not {pull!r}")
+    particle, anchor, stiffness, damping, ball = pull
+    try:
+        if isinstance(particle, bool):
+            raise TypeError
+        number, (x, y, z) = operator.index(particle), anchor
+        row = (number, (float(x), float(y), float(z)), float(stiffness), float(damping), bool(ball))
+    except (TypeError, ValueError):
+        raise UsageError(f"a pull has an index, an anchor of three numbers, a stiffness and a damping, not {pull!r}") from None
+    if not 0 <= number < 2**32:
+        raise UsageError(f"a pull's particle is an index, 0 or more, not {number}")
+    return row
+
+
 class Steerable(Readable):
     """The part of a simulation or of an instance of a batch that takes inputs."""
 
@@ -43,12 +61,9 @@ class Steerable(Readable):
 
     @pulls.setter
     def pulls(self, pulls: Iterable[Pull] | Pull) -> None:
-        rows = []
-        for particle, anchor, stiffness, damping, ball in [pulls] if isinstance(pulls, Pull) else pulls:
-            if particle < 0:
-                raise UsageError(f"a pull's particle is an index, 0 or more, not {particle}")
-            x, y, z = (float(a) for a in anchor)
-            rows.append((int(particle), (x, y, z), float(stiffness), float(damping), bool(ball)))
+        if not isinstance(pulls, Pull) and not isinstance(pulls, Iterable):
+            raise UsageError(f"pulls are one aspic.Pull or a list of them, not {type(pulls).__name__}")
+        rows = [_row(pull) for pull in ([pulls] if isinstance(pulls, Pull) else pulls)]
         _, pinned, released, channels = self._core.inputs()
         self._core.set_inputs((rows, pinned, released, channels))
 
@@ -69,6 +84,11 @@ class Steerable(Readable):
         import numpy as np
 
         given = np.asarray(particles)
+        if given.dtype == object or given.dtype.kind == "U":
+            raise UsageError(
+                f"pinned particles are a list or an array of indices, not {type(particles).__name__}; faces and corners "
+                "are named by the scene's key 'pinned'"
+            )
         if given.dtype == np.bool_:
             if given.shape != (self._count(),):
                 raise UsageError(f"{self._count()} of bool say which particles are pinned, not {given.shape}")
@@ -92,7 +112,11 @@ class Steerable(Readable):
     @channels.setter
     def channels(self, channels: Iterable[float]) -> None:
         pulls, pinned, released, _ = self._core.inputs()
-        self._core.set_inputs((pulls, pinned, released, [float(number) for number in channels]))
+        try:
+            numbers = [float(number) for number in channels]
+        except (TypeError, ValueError):
+            raise UsageError(f"channels are a list of numbers, not {channels!r}") from None
+        self._core.set_inputs((pulls, pinned, released, numbers))
 
     @property
     def inputs(self) -> Signals:

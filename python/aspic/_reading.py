@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _aspic
 from ._body import Ball, Body, body_index
-from ._errors import UsageError
+from ._errors import Unshared, UsageError
+from ._numbers import floats
 from ._scene import Scene
 from ._state import State, field_index
 from ._trajectory import Energy
@@ -70,7 +71,7 @@ class Quantities(NamedTuple):
     """Of springs, (m,) [N]; < 0: pressure."""
 
 
-class Readable:
+class Readable(Unshared):
     """The part of a simulation or of an instance of a batch that reads it."""
 
     _core: _aspic.Simulation | _aspic.Instance
@@ -117,6 +118,8 @@ class Readable:
 
         ``"worm"`` and ``"voxels[worm]"`` are the body that a scene names so. Raises UsageError.
         """
+        if not isinstance(name, str):
+            raise UsageError(f"a body or ball is found by its name, 'cube[0]' or 'ball[0]', not by {name!r}")
         bodies = self.bodies
         index = body_index(bodies, name, self._core.scene)
         if index is not None:
@@ -160,7 +163,12 @@ class Readable:
             raise UsageError("out has to be a writable array of float32 or float64")
         elif out.shape != (count, 3):
             raise UsageError(f"out has to have the shape {(count, 3)}, not {out.shape}")
-        self._core.read_into(index, out)
+        elif _overlaps(out):
+            raise UsageError("out has numbers that share memory: each needs a place of its own")
+        if any(stride % out.itemsize for stride in out.strides) or not out.flags.aligned:  # a field of a structured array
+            out[...] = self.read(field)
+        else:
+            self._core.read_into(index, out)
         return out
 
     @property
@@ -231,6 +239,17 @@ class Readable:
     def _write(self, field: str, numbers: ArrayLike, where: slice) -> None:
         state = State(self._core.state())
         changed = state.read(field)
-        changed[where] = numbers
+        changed[where] = floats(numbers, changed[where].shape, field, not self._core.doubles)
         state.write(field, changed)
         self._core.load(state._core, None)
+
+
+def _overlaps(out: Any) -> bool:
+    """Whether numbers of an array (n, 3) may share memory."""
+    axes = sorted((abs(stride), count) for stride, count in zip(out.strides, out.shape) if count > 1)
+    reach = out.itemsize
+    for stride, count in axes:
+        if stride < reach:
+            return True
+        reach += stride * (count - 1)
+    return False

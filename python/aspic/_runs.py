@@ -37,7 +37,7 @@ class Study(NamedTuple):
     every: float | None
     metrics: Mapping[str, Callable[[Trajectory], Any]]
     recipes: Mapping[str, str]
-    """Of each metric: a hash of its source and of what it is computed from."""
+    """Of each metric: a hash of what it computes and of what it is computed from; empty: it is not reused."""
     trajectories: bool
     batch: int
     """Most runs that are stepped together."""
@@ -84,7 +84,7 @@ def is_made(study: Study, row: Row | None) -> bool:
         return False
     if row["outcome"] == "ok":
         metrics = row.get("metrics", {})
-        if any(metrics.get(name, {}).get("recipe") != recipe for name, recipe in study.recipes.items()):
+        if any(not recipe or metrics.get(name, {}).get("recipe") != recipe for name, recipe in study.recipes.items()):
             return False
     wanted = {"record": list(study.record), "every": study.every}
     return not study.trajectories or row["outcome"] == "rejected" or row.get("trajectory") == wanted
@@ -170,7 +170,10 @@ class _Running:
                     value = number(metric(trajectory))
                 except Exception as error:
                     # What a user's function raises is the run's end, not the sweep's.
-                    row.update(outcome="failed", reason=f"metric {name}: {type(error).__name__}: {error}")
+                    advice = ""
+                    if isinstance(error, UsageError) and "was not recorded" in str(error):
+                        advice = ": name all that metrics read in record=[…]"
+                    row.update(outcome="failed", reason=f"metric {name}: {type(error).__name__}: {error}{advice}")
                     break
                 row["metrics"][name] = {"value": value, "recipe": study.recipes[name]}
         if study.trajectories:
@@ -213,7 +216,7 @@ def _next_sample(study: Study, steps: int, timestep: float, k: int, done: int) -
         return (steps, 1) if k == 0 else (steps + 1, k)
     while True:
         k += 1
-        wanted = round(k * study.every / timestep)
+        wanted = round(k * max(study.every, timestep) / timestep)
         if wanted > done:
             return wanted, k
 
@@ -244,11 +247,13 @@ def _reason(found: tuple[int, int, bool, str]) -> str:
 def _alone(study: Study, run: Order, backend: str) -> tuple[Row, Trajectory | None]:
     """Makes a run with a separate solver."""
     assert run.scene is not None
-    simulation = Simulation(Scene._of(run.scene), backend, threads=study.threads if backend.startswith("cpu") else 0)
+    simulation = Simulation._quiet(
+        Scene._of(run.scene), backend, threads=study.threads if backend.startswith("cpu") else 0
+    )
     running = _Running(study, run, simulation, simulation.backend)
 
     def advance(steps: int) -> None:
-        found = simulation._core.advance(steps)
+        _, found, _ = simulation._core.advance(steps)
         if found:
             running.diverge(_reason(found))
 

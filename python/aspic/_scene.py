@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import math
+import difflib
+import functools
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 from . import _aspic, _program
 from ._building import Buildable
-from ._errors import SceneError, UsageError
+from ._errors import FileError, SceneError, UsageError
+from ._toml import assignments
 
 __all__ = ["BuiltinScene", "Parameter", "Scene", "load", "parameters", "scenes"]
 
@@ -53,42 +55,22 @@ def parameters() -> list[Parameter]:
     return [Parameter(*row) for row in _aspic.parameters()]
 
 
-def _quoted(text: str) -> str:
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in escaped) + '"'
+@functools.cache
+def _of_the_start() -> frozenset[str]:
+    """Keys that only say how a run begins, or of what it is made."""
+    return frozenset(parameter.path for parameter in parameters() if not parameter.live)
 
 
-def _toml_key(key: str) -> str:
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _quoted(key)
-
-
-def _toml(value: Any) -> str:
-    """A value as TOML. Arrays and numbers of numpy are taken for lists and numbers."""
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, float):
-        return repr(value) if math.isfinite(value) else str(value)
-    if isinstance(value, str):
-        return _quoted(value)
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_toml_key(str(key))} = {_toml(item)}" for key, item in value.items()) + " }"
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_toml(item) for item in value) + "]"
-    raise UsageError(f"a value of a scene is a number, a word, a list or a dict of them, not {type(value).__name__}")
-
-
-def assignments(values: Mapping[str, Any] | None) -> list[str]:
-    """Keys and values as arguments of --set."""
-    found = []
-    for key, value in (values or {}).items():
-        if not isinstance(key, str) or "=" in key:
-            raise SceneError(f"a key of a scene is a path such as 'cube[0].edge-length', not {key!r}")
-        found.append(f"{key}={_toml(value)}")
-    return found
+def changes(values: Mapping[str, Any]) -> list[str]:
+    """Keys and values that may change while a simulation runs, as arguments of --set. Raises UsageError for others."""
+    words = assignments(values)
+    for key in values:
+        if re.sub(r"\[[^]]*\]", "[]", key) in _of_the_start():
+            raise UsageError(
+                f"{key} is of the start: it cannot change while a simulation runs. Assign positions and velocities, or "
+                "make a new simulation of a changed scene"
+            )
+    return words
 
 
 class Scene(Buildable):
@@ -169,14 +151,36 @@ class Scene(Buildable):
 
     def __getitem__(self, key: str) -> Any:
         """The value of a key: a number, word, tuple (vectors) or list; None where it is absent or has no meaning here.
+        Of a table, ``scene["simulation"]``, a dict of its keys.
 
         Raises SceneError (a ValueError) for an unknown key, with the nearest one.
         """
         try:
             return self._core.value(key)
         except SceneError as error:
+            table = {path[len(key) + 1 :]: path for path in self.keys() if path.startswith(f"{key}.")}
+            if table:
+                return {path: self._core.value(full) for path, full in table.items()}
             # The library asks --set, which takes a value.
             raise SceneError(str(error).replace(f"{key}=0", key)) from None
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """The value of a key; ``default`` where the scene has no such key."""
+        return self[key] if key in self else default
+
+    def items(self) -> list[tuple[str, Any]]:
+        """Every key with its value."""
+        return [(key, self._core.value(key)) for key in self.keys()]
+
+    def values(self) -> list[Any]:
+        """The value of every key."""
+        return [value for _, value in self.items()]
+
+    def __delitem__(self, key: str) -> NoReturn:
+        raise SceneError(
+            f"{key!r} cannot be removed from a scene: set it to its default, which aspic.parameters() lists, or build a "
+            "scene without it"
+        )
 
     def __setitem__(self, key: str, value: Any) -> None:
         """Sets a key; a dict sets several of a table.
@@ -262,4 +266,11 @@ def load(name: str | os.PathLike[str], overrides: Mapping[str, Any] | None = Non
     ``overrides``: keys and values as ``Scene.update()`` takes them. Write ``./cube-plane`` for a file with a built-in's
     name. Raises SceneError with every mistake, its line and the nearest word; FileError for a path that cannot be read.
     """
-    return Scene._of(*_aspic.Scene.load(os.fspath(name), assignments(overrides)))
+    words = assignments(overrides)
+    try:
+        return Scene._of(*_aspic.Scene.load(os.fspath(name), words))
+    except FileError as error:
+        near = difflib.get_close_matches(os.fspath(name), [scene.name for scene in scenes()], 1)
+        if not near:
+            raise
+        raise FileError(f"no scene or file is named {os.fspath(name)!r}; did you mean {near[0]!r}?") from error

@@ -5,15 +5,26 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Union
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 from . import _aspic
 from ._command import page_command
-from ._errors import OverlapWarning, SceneError, UsageError, diverged
+from ._errors import (
+    ConvergenceWarning,
+    DivergedError,
+    InterruptedRun,
+    OverlapWarning,
+    SceneError,
+    StepWarning,
+    UsageError,
+    diverged,
+)
 from ._exports import OF_LIBRARY, ending_of
 from ._inputs import Replayable
-from ._scene import Scene, assignments, load
+from ._numbers import floats, pace, positive, whole
+from ._scene import Scene, changes, load
 from ._state import State, field_index
+from ._toml import assignments
 from ._trajectory import Recorder, Trajectory
 
 if TYPE_CHECKING:
@@ -21,9 +32,40 @@ if TYPE_CHECKING:
 
     from ._picture import Picture
 
-__all__ = ["Simulation", "resume"]
+__all__ = ["Advance", "Simulation", "SolveStatistics", "resume"]
 
 Path = Union[str, "os.PathLike[str]"]
+
+
+# What the extension module tells of steps: how many were made, what diverged, whether stop() ended them.
+Made = tuple[int, Union[tuple[int, int, bool, str], None], bool]
+
+
+class Advance(NamedTuple):
+    """How far ``Simulation.advance()`` came, and what ended it. If neither did, all steps were made."""
+
+    steps: int
+    """Made in this call."""
+    divergence: DivergedError | None = None
+    """What ended the steps; it is not raised."""
+    stopped: bool = False
+    """Whether ``Simulation.stop()`` ended them."""
+
+
+class SolveStatistics(NamedTuple):
+    """Solves of implicit Euler since the state was loaded."""
+
+    steps: int
+    """All of them; each of the next three counts those with one end."""
+    converged: int
+    stagnated: int
+    """Their residual no longer became smaller."""
+    not_converged: int
+    """They ended at the limit of iterations."""
+    newton_iterations: int
+    cg_iterations: int
+    worst_residual: float
+    """[m/s]."""
 
 
 class Simulation(Replayable):
@@ -56,13 +98,22 @@ class Simulation(Replayable):
         """
         if not isinstance(scene, Scene):
             scene = load(scene)
+        if not isinstance(backend, str):
+            raise UsageError(f"a backend is a word such as 'cpu' or 'gpu', not {backend!r}")
         if precision not in (None, "single", "double"):
             raise UsageError(f"a precision is 'single' or 'double', not {precision!r}")
-        if not 0 <= threads <= 1024:
-            raise UsageError(f"a number of threads is 1 to 1024, or 0 for as many as are worthwhile, not {threads}")
+        threads = whole(threads, "a number of threads (0: as many as are worthwhile)", most=1024)
         doubles = None if precision is None else precision == "double"
         self._core = _aspic.Simulation(scene._core, backend, doubles, threads)
         self._warn()
+
+    @classmethod
+    def _quiet(cls, scene: Scene, backend: str, doubles: bool | None = None, threads: int = 0) -> Simulation:
+        """One for the package's own use, without warnings."""
+        simulation = cls.__new__(cls)
+        simulation._core = _aspic.Simulation(scene._core, backend, doubles, threads)
+        simulation._core.warnings()
+        return simulation
 
     # What computes.
 
@@ -95,18 +146,37 @@ class Simulation(Replayable):
     # Steps.
 
     def step(self, steps: int = 1) -> None:
-        """Makes so many steps.
+        """Advance by ``steps`` time steps.
 
         Raises DivergedError where a number is no longer finite or a particle is faster than 1000 m/s: the state is the
-        last good one, and further steps raise it again until ``load()``. KeyboardInterrupt (Ctrl-C) leaves the state of
-        a whole step.
+        last good one, and further steps raise it again until ``load()``. KeyboardInterrupt (Ctrl-C) and ``stop()``
+        (InterruptedRun) leave the state of a whole step.
         """
-        if steps < 0:
-            raise UsageError(f"a number of steps is 0 or more, not {steps}")
-        found = self._core.advance(steps)
+        made = self._core.advance(whole(steps, "a number of steps"))
         self._warn()
-        if found:
-            raise diverged(found)
+        _raise(made)
+
+    def advance(self, steps: int = 1) -> Advance:
+        """Advance by ``steps`` time steps, and return how many were made and what ended them.
+
+        As ``step()``, but a divergence and ``stop()`` raise nothing.
+        """
+        count, found, stopped = self._core.advance(whole(steps, "a number of steps"))
+        self._warn()
+        return Advance(count, diverged(found) if found else None, stopped)
+
+    def stop(self) -> None:
+        """End a call that steps in another thread, after the step it is in. No effect otherwise.
+
+        ``advance()`` returns; ``step()``, ``run()``, ``export()``, ``film()`` and ``page()`` raise InterruptedRun.
+        """
+        self._core.stop()
+
+    @property
+    def solves(self) -> SolveStatistics | None:
+        """How implicit Euler's solves ended since the state was loaded; None with other integrators."""
+        row = self._core.solves()
+        return None if row is None else SolveStatistics(*row)
 
     def run(
         self,
@@ -129,20 +199,22 @@ class Simulation(Replayable):
         ``inputs`` by step, (steps, inputs), in their order; then the run has so many steps. Raises UsageError for
         others; DivergedError as ``step()``, with what was recorded as ``trajectory``.
         """
-        _check_interval(every)
+        if every is not None:
+            positive(every, "every, the interval of samples [s],")
         recorder = Recorder(self, record)
         if controls is None:
-            found = self._sample(self._steps_of(duration, steps), every, recorder.take)
+            made = self._sample(self._steps_of(duration, steps), every, recorder.take)
         else:
             rows = self._controls(controls)
             if duration is not None or steps not in (None, len(rows)):
-                raise UsageError(f"a run of {len(rows)} controls has so many steps")
-            found = self._sample(len(rows), every, recorder.take, rows)
+                raise UsageError(f"controls have {len(rows)} rows, so the run takes {len(rows)} steps: omit the rest")
+            made = self._sample(len(rows), every, recorder.take, rows)
         self._warn()
-        if found:
-            error = diverged(found)
+        try:
+            _raise(made)
+        except (DivergedError, InterruptedRun) as error:
             error.trajectory = recorder.trajectory()
-            raise error
+            raise
         return recorder.trajectory()
 
     def export(
@@ -162,14 +234,13 @@ class Simulation(Replayable):
         exists, unless ``overwrite``; DivergedError as ``step()``.
         """
         count = self._steps_of(duration, steps)
-        _check_interval(every)
+        positive(every, "every, the interval of samples [s],")
         ending = ending_of(path)
         name = os.fspath(path)
-        found = None
         if ending in OF_LIBRARY:
             writer = _aspic.Export(self._core.scene, name, overwrite)
             try:
-                found = self._sample(count, every, lambda: writer.add(self._core))
+                made = self._sample(count, every, lambda: writer.add(self._core))
             finally:
                 writer.finish()
         else:
@@ -177,29 +248,28 @@ class Simulation(Replayable):
                 raise FileExistsError(f"{name!r} exists and was not changed: pass overwrite=True")
             recorder = Recorder(self, ["motion"])
             try:
-                found = self._sample(count, every, recorder.take)
+                made = self._sample(count, every, recorder.take)
             finally:
                 recorder.trajectory().export(path, overwrite)
         self._warn()
-        if found:
-            raise diverged(found)
+        _raise(made)
 
     def _controls(self, controls: ArrayLike) -> list[list[float]]:
         import numpy as np
 
-        rows = np.asarray(controls, dtype=float)
-        if rows.ndim != 2 or rows.shape[1] != len(self.inputs):
-            raise UsageError(f"controls are (steps, {len(self.inputs)}), of {', '.join(self.inputs)}, not {rows.shape}")
-        return rows.tolist()  # type: ignore[no-any-return]
+        shape = np.shape(controls)
+        if len(shape) != 2 or shape[1] != len(self.inputs):
+            raise UsageError(f"controls are (steps, {len(self.inputs)}), of {', '.join(self.inputs)}, not {shape}")
+        return floats(controls, shape, "controls").tolist()  # type: ignore[no-any-return]
 
-    def _advance(self, steps: int, controls: Sequence[Sequence[float]]) -> tuple[int, int, bool, str] | None:
+    def _advance(self, steps: int, controls: Sequence[Sequence[float]]) -> Made:
         """So many steps, each with its own row of inputs."""
-        for row in controls[:steps]:
+        for count, row in enumerate(controls[:steps]):
             self.channels = row
-            found = self._core.advance(1)
-            if found:
-                return found
-        return None
+            made, found, stopped = self._core.advance(1)
+            if found or stopped:
+                return count + made, found, stopped
+        return steps, None, False
 
     def _sample(
         self,
@@ -207,24 +277,25 @@ class Simulation(Replayable):
         every: float | None,
         take: Callable[[], None],
         controls: Sequence[Sequence[float]] | None = None,
-    ) -> tuple[int, int, bool, str] | None:
-        """So many steps with samples, the first at once; what diverged."""
-        start, h = self.steps, self.timestep
+    ) -> Made:
+        """So many steps with samples, the first at once. Steps of other threads in between do not count."""
         take()
-        # Not by adding up: the k-th sample is where it would be without the others.
-        k = 0
-        while (done := self.steps - start) < count:
+        # In steps: the k-th sample is where it would be without the others.
+        h = self.timestep
+        k = done = 0
+        while done < count:
             k += 1
-            wanted = count if every is None else round(k * every / h)
-            if wanted <= done:
-                continue
+            wanted = count if every is None else round(k * max(every, h) / h)
             more = min(wanted, count) - done
-            found = self._core.advance(more) if controls is None else self._advance(more, controls[done:])
-            if found:
-                return found
+            made, found, stopped = (
+                self._core.advance(more) if controls is None else self._advance(more, controls[done:])
+            )
+            done += made
+            if found or stopped:
+                return done, found, stopped
             if wanted <= count:
                 take()
-        return None
+        return done, None, False
 
     def compare(self, other: Simulation, steps: int) -> int | None:
         """Steps both at once, and returns the first step whose states differ in any bit; None if none does.
@@ -232,18 +303,20 @@ class Simulation(Replayable):
         Both stop at that step, or where they diverge alike. Raises UsageError where they have other numbers of
         particles or balls. ``aspic.compare()`` compares two states as they are.
         """
-        if other is self:
-            raise UsageError("a simulation cannot be compared with itself")
-        return self._core.compare(other._core, steps)
+        if not isinstance(other, Simulation) or other is self:
+            raise UsageError("a simulation is compared with another Simulation")
+        return self._core.compare(other._core, whole(steps, "a number of steps"))
 
     def update(self, values: Mapping[str, Any]) -> None:
         """Changes constants while it runs: stiffnesses, masses, gravity, contact, the time step.
 
-        ``values``: keys and values as ``Scene.update()`` takes them. State and inputs stay. Raises SceneError for what
-        a scene refuses; UsageError where particles, springs, kinds of terrain or the integrator would become others,
-        which takes a new Simulation. Then nothing changes.
+        ``values``: keys and values as ``Scene.update()`` takes them. State, time and inputs stay: with another time step
+        the steps so far have other numbers. Another frequency goes on from the phase it is at, which changes the scene's
+        ``phase``. Raises SceneError for what a scene refuses; UsageError for keys of the start, and where particles,
+        springs, kinds of terrain or the integrator would become others, which takes a new Simulation. Then nothing
+        changes.
         """
-        self._core.update(assignments(values))
+        self._core.update(changes(values))
 
     # States and files.
 
@@ -264,6 +337,8 @@ class Simulation(Replayable):
 
     def load(self, state: State) -> None:
         """Goes to a state of the same model, with its inputs. Forgets a divergence. Raises UsageError."""
+        if not isinstance(state, State):
+            raise UsageError(f"load() takes a State, as save() returns, not {type(state).__name__}")
         self._core.load(state._core, state._log)
 
     # Pictures.
@@ -280,8 +355,7 @@ class Simulation(Replayable):
         """
         from ._picture import Picture
 
-        if width < 1 or height < 1:
-            raise UsageError(f"a picture has at least 1 × 1 pixels, not {width} × {height}")
+        _check_size(width, height)
         pixels: Any = self._core.picture(assignments(view), width, height, text)
         return pixels.view(Picture)  # type: ignore[no-any-return]
 
@@ -306,9 +380,8 @@ class Simulation(Replayable):
         complete film so far. Raises UsageError, FileError, DeviceError, and DivergedError as ``step()``.
         """
         count = self._steps_of(duration, steps)
-        _check_pace(fps, speed)
-        if width < 1 or height < 1:
-            raise UsageError(f"a picture has at least 1 × 1 pixels, not {width} × {height}")
+        pace(fps, speed)
+        _check_size(width, height)
         found = self._core.film(os.fspath(path), count, fps, speed, width, height, text, overwrite)
         self._warn()
         if found:
@@ -334,7 +407,7 @@ class Simulation(Replayable):
         a file exists, unless ``overwrite``; DivergedError as ``step()``.
         """
         count = self._steps_of(duration, steps)
-        _check_pace(fps, speed)
+        pace(fps, speed)
         words = ["--page-live" if live else "--page", os.fspath(path)]
         for word, value, usual in (("--fps", fps, 60.0), ("--speed", speed, 1.0)):
             words += [] if value == usual else [word, repr(value)]
@@ -351,8 +424,8 @@ class Simulation(Replayable):
     # Parts.
 
     def _warn(self) -> None:
-        for text in self._core.warnings():
-            warnings.warn(text, OverlapWarning, stacklevel=3)
+        for kind, text in self._core.warnings():
+            warnings.warn(text, _WARNINGS[kind], stacklevel=3)
 
     def _ipython_key_completions_(self) -> list[str]:
         return [*self.bodies, *(ball.name for ball in self.balls)]
@@ -363,23 +436,28 @@ class Simulation(Replayable):
     def _steps_of(self, duration: float | None, steps: int | None) -> int:
         if duration is not None and steps is not None:
             raise UsageError("a run is as long as either duration or steps say, not both")
-        if steps is None:
-            left = self._core.scene.duration - self.time if duration is None else duration
-            steps = max(round(left / self.timestep), 0) if duration is None else round(left / self.timestep)
-        if steps < 0:
-            raise UsageError("a run takes 0 s or more")
-        return steps
+        if steps is not None:
+            return whole(steps, "a number of steps")
+        if duration is None:
+            return max(round((self._core.scene.duration - self.time) / self.timestep), 0)
+        return whole(round(positive(duration, "duration [s]", zero=True) / self.timestep), "a number of steps")
 
 
-def _check_pace(fps: float | None, speed: float) -> None:
-    for name, value in (("fps", fps), ("speed", speed)):
-        if value is not None and not 0 < value < float("inf"):
-            raise UsageError(f"{name} is more than 0, not {value}")
+_WARNINGS = {"overlap": OverlapWarning, "solve": ConvergenceWarning, "step": StepWarning}
 
 
-def _check_interval(every: float | None) -> None:
-    if every is not None and not every > 0:
-        raise UsageError(f"an interval of samples is more than 0 s, not {every}")
+def _raise(made: Made) -> None:
+    """What ended steps early, if anything did."""
+    _, found, stopped = made
+    if found:
+        raise diverged(found)
+    if stopped:
+        raise InterruptedRun("stop() ended the call; the state is that of a whole step")
+
+
+def _check_size(width: int, height: int) -> None:
+    for value, what in ((width, "the width of a picture"), (height, "the height of a picture")):
+        whole(value, what, least=1, most=2**31 - 1)
 
 
 def resume(path: Path, backend: str = "auto", *, threads: int = 0) -> Simulation:

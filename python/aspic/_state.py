@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _aspic
 from ._errors import UsageError
+from ._numbers import floats, whole
 
 if TYPE_CHECKING:
     import numpy as np
@@ -48,7 +49,7 @@ class State:
 
     @step.setter
     def step(self, step: int) -> None:
-        self._core.step = step
+        self._core.step = whole(step, "a step number")
 
     @property
     def precision(self) -> str:
@@ -66,15 +67,9 @@ class State:
         return numbers if self._core.doubles else numbers.astype("float32")
 
     def write(self, field: str, numbers: ArrayLike) -> None:
-        """Replaces a field by numbers of the shape (n, 3). Raises UsageError, also where the shape is another."""
-        import numpy as np
-
+        """Replaces a field by finite numbers of the shape (n, 3). Raises UsageError for others."""
         index = field_index(field)
-        given = np.ascontiguousarray(numbers, dtype=np.float64)
-        shape = self._core.read(index).shape
-        if given.shape != shape:
-            raise UsageError(f"{field} have the shape {shape}, not {given.shape}")
-        self._core.write(index, given)
+        self._core.write(index, floats(numbers, self._core.read(index).shape, field, not self._core.doubles))
 
     @property
     def positions(self) -> Floats:
@@ -97,6 +92,11 @@ class State:
     def copy(self) -> State:
         """Another one with the same numbers and inputs."""
         return State(self._core.copy(), self._log)
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> State:
+        return self.copy()
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_restored, (self.step, self._core.doubles, [self._core.read(i) for i in range(len(FIELDS))]))

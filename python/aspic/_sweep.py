@@ -11,6 +11,7 @@ from typing import Any, Literal
 from . import _aspic, _executors
 from ._errors import UsageError, error_of
 from ._folder import Folder, Row
+from ._numbers import positive, whole
 from ._runs import (
     SMALL,
     Differences,
@@ -25,9 +26,10 @@ from ._runs import (
     scene_of,
     smallest,
 )
-from ._scene import Scene, _toml, load
+from ._scene import Scene, load
 from ._simulation import Simulation
 from ._table import AFTER, BEFORE, Table
+from ._toml import toml_of
 from ._trajectory import Energy, Recorder, Trajectory
 
 __all__ = ["sweep"]
@@ -93,12 +95,17 @@ def sweep(
     """
     if not isinstance(scene, Scene):
         scene = load(scene)
-    if (steps is not None and duration is not None) or (steps or 0) < 0 or not (duration or 0) >= 0:
-        raise UsageError("a run is as long as either duration or steps say, 0 or more, not both")
-    if every is not None and not every > 0:
-        raise UsageError(f"an interval of samples is more than 0 s, not {every}")
-    if batch is not None and batch < 1:
-        raise UsageError(f"at least one run is sent at once, not {batch}")
+    if steps is not None and duration is not None:
+        raise UsageError("a run is as long as either duration or steps say, not both")
+    if steps is not None:
+        steps = whole(steps, "a number of steps")
+    if duration is not None:
+        positive(duration, "duration [s]", zero=True)
+    if every is not None:
+        positive(every, "every, the interval of samples [s],")
+    if batch is not None:
+        batch = whole(batch, "batch, the most runs that are sent at once,", least=1)
+    threads = whole(threads, "a number of threads", most=1024)
     if precision not in (None, "single", "double"):
         raise UsageError(f"a precision is 'single' or 'double', not {precision!r}")
     if trajectories and out is None:
@@ -111,7 +118,7 @@ def sweep(
         record = [record]
     recorded = tuple(_asked(scene, metrics) if record is None else record)
     if record is not None:
-        Recorder(Simulation(scene, "reference"), recorded)  # raises for names that cannot be recorded
+        Recorder(Simulation._quiet(scene, "reference"), recorded)  # raises for names that cannot be recorded
     if trajectories and not recorded:
         raise UsageError("trajectories have what record=… names")
     here = executor is None
@@ -125,7 +132,7 @@ def sweep(
         record=recorded,
         every=every,
         metrics=metrics,
-        recipes={name: _recipe(metric, recorded, every) for name, metric in metrics.items()},
+        recipes={name: "" if out is None else _recipe(name, metric, recorded, every) for name, metric in metrics.items()},
         trajectories=trajectories,
         batch=batch or 64,
         threads=threads or (0 if here else 1),
@@ -142,7 +149,7 @@ def sweep(
     finally:
         # At once, so that Ctrl-C ends what is under way.
         ended.close()  # type: ignore[attr-defined]
-    return Table(rows.in_order(), study.folder, keys)
+    return Table(rows.in_order(), study.folder, keys, metrics)
 
 
 class _Rows:
@@ -262,7 +269,7 @@ def _word(key: Any, value: Any) -> str:
         raise UsageError(f"a key of a sweep is a path such as 'cube[0].edge-length', or a short name, not {key!r}")
     if key in _SHORT and isinstance(value, str):
         return value
-    return _toml(value)
+    return toml_of(value)
 
 
 def _check_names(keys: Sequence[str], metrics: Mapping[str, Metric]) -> None:
@@ -281,22 +288,27 @@ def _figures() -> list[tuple[str, float | None]]:
 
 
 class _Asked(Trajectory):
-    """Two steps of a scene, recorded as they are asked for."""
+    """The first samples of a run, a step apart, recorded as they are asked for."""
 
-    def __init__(self, scene: Scene):
+    def __init__(self, scene: Scene, samples: int):
         import numpy as np
 
-        self._moments = [Simulation(scene, "reference"), Simulation(scene, "reference")]
-        self._moments[1]._core.advance(1)
-        super().__init__(np.array([0, 1]), np.array([0.0, self._moments[1].timestep]), {})
+        simulation = Simulation._quiet(scene, "reference")
+        self._states = [simulation.save()]
+        while len(self._states) < samples and simulation.advance(1).steps == 1:
+            self._states.append(simulation.save())
+        self._simulation = simulation
+        steps = np.arange(len(self._states))
+        super().__init__(steps, steps * simulation.timestep, {})
 
     def __getitem__(self, name: str) -> Any:
         import numpy as np
 
         if name not in self._series:
             values = []
-            for moment in self._moments:
-                recorder = Recorder(moment, [name])
+            for state in self._states:
+                self._simulation.load(state)
+                recorder = Recorder(self._simulation, [name])
                 recorder.take()
                 values.append(recorder.trajectory()[name])
             if isinstance(values[0], Energy):
@@ -315,29 +327,43 @@ def _asked(scene: Scene, metrics: Mapping[str, Metric]) -> list[str]:
         return []
     import warnings
 
-    asked = _Asked(scene)
-    for metric in metrics.values():
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                metric(asked)
-        except UsageError:
-            raise
-        except Exception:
-            pass  # two samples may be too few for it
-    return list(asked)
+    found: dict[str, None] = {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        few, more = _Asked(scene, 2), None
+        for metric in metrics.values():
+            try:
+                metric(few)
+                continue
+            except UsageError:
+                raise
+            except Exception:
+                pass  # two samples may be too few for it
+            more = more or _Asked(scene, 64)
+            try:
+                metric(more)
+            except UsageError:
+                raise
+            except Exception:
+                pass  # each run says why
+    for asked in (few, more):
+        found.update(dict.fromkeys(asked or ()))
+    return list(found)
 
 
-def _recipe(metric: Metric, record: Sequence[str], every: float | None) -> str:
-    """A hash of what a metric is computed by and from: another function has another one."""
+def _recipe(name: str, metric: Metric, record: Sequence[str], every: float | None) -> str:
+    """A hash of what computes a metric and of what it is computed from. Empty, with a warning: it has none."""
     import hashlib
-    import inspect
-    import marshal
+    import warnings
+
+    from ._identity import identity
 
     try:
-        source = inspect.getsource(metric).encode()
-    except (OSError, TypeError):
-        code = getattr(metric, "__code__", None)
-        source = marshal.dumps(code) if code is not None else repr(type(metric)).encode()
-    text = source + repr((sorted(record), every)).encode()
-    return hashlib.sha256(text).hexdigest()[:16]
+        what = identity(metric)
+    except Exception as error:
+        warnings.warn(
+            f"the metric {name!r} uses what cannot be pickled ({error}), so it is computed anew in every sweep",
+            stacklevel=3,
+        )
+        return ""
+    return hashlib.sha256(what + repr((sorted(record), every)).encode()).hexdigest()[:16]

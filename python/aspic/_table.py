@@ -19,6 +19,10 @@ AFTER = ("hash", "backend", "precision", "aspic", "scene", "key", "solver", "hos
 """Of these ``solver``, ``host`` and ``seconds`` may be others when a run is made again."""
 
 
+def _cell(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else "" if value is None else str(value)
+
+
 class Table(Mapping[str, list[Any]]):
     """Runs of a sweep, a column of each key that was varied, of each figure and of each metric.
 
@@ -27,23 +31,24 @@ class Table(Mapping[str, list[Any]]):
     figures of ``aspic sweep`` (docs/report.md); the metrics; ``hash`` of the last state; and how it was made.
     """
 
-    def __init__(self, rows: Sequence[Row], folder: Path | None = None, keys: Iterable[str] = ()):
+    def __init__(self, rows: Sequence[Row], folder: Path | None = None, keys: Iterable[str] = (), metrics: Iterable[str] = ()):
         self._files = list(rows)
         self._folder = None if folder is None else Folder(folder)
         self.keys_varied: list[str] = list(dict.fromkeys([*keys, *(key for row in rows for key in row["values"])]))
         """Those whose values differ from the scene's."""
         figures = dict.fromkeys(name for row in rows for name in row["figures"])
-        metrics = dict.fromkeys(name for row in rows for name in row.get("metrics", {}))
+        named = dict.fromkeys([*metrics, *(name for row in rows for name in row.get("metrics", {}))])
         columns = {key: [row["values"].get(key) for row in rows] for key in self.keys_varied}
         for name in BEFORE:
             columns[name] = [row.get(name) for row in rows]
         for name in figures:
             columns[name] = [row["figures"].get(name) for row in rows]
-        for name in metrics:
+        for name in named:
             columns[name] = [row.get("metrics", {}).get(name, {}).get("value") for row in rows]
         for name in AFTER:
             columns[name] = [row.get(name) for row in rows]
         self._columns = columns
+        self._shown = [*self.keys_varied, "outcome", *named]
 
     def __getitem__(self, name: str) -> list[Any]:
         if name in self._columns:
@@ -69,6 +74,13 @@ class Table(Mapping[str, list[Any]]):
     def __repr__(self) -> str:
         counts = {name: self["outcome"].count(name) for name in dict.fromkeys(self["outcome"])}
         return f"<aspic.Table: {self.size} runs ({', '.join(f'{n} {name}' for name, n in counts.items())})>"
+
+    def __str__(self) -> str:
+        """The first ten runs: what was varied, their outcome, and the metrics."""
+        cells = [self._shown] + [[_cell(self._columns[n][run]) for n in self._shown] for run in range(min(self.size, 10))]
+        widths = [max(map(len, column)) for column in zip(*cells)]
+        lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in cells]
+        return "\n".join([*lines, repr(self)])
 
     def trajectory(self, run: int) -> Trajectory:
         """What a run recorded, where trajectories were asked for. Raises UsageError where there is none."""

@@ -8,7 +8,7 @@
 
 Derive your environments from ``BatchEnv``. ``Walk``, a robot of voxels with muscles, and ``Crawl``, a cube with
 tendons, are such classes; ``WalkEnv`` is a single environment, ``gymnasium.make("aspic/Walk-v0")``. The same seed and
-the same actions give the same bits on every machine, whatever the number of environments and of threads. Needs the package gymnasium: ``pip install "aspic[gym]"``.
+the same actions give the same bits on every machine, whatever the number of environments and of threads. Needs the package gymnasium: ``pip install gymnasium``.
 """
 
 try:
@@ -17,7 +17,7 @@ except ModuleNotFoundError as missing:
     if missing.name != "gymnasium":
         raise
     raise ModuleNotFoundError(
-        "aspic.gym needs the package gymnasium: pip install 'aspic[gym]'", name="gymnasium"
+        "aspic.gym needs the package gymnasium: pip install gymnasium", name="gymnasium"
     ) from None
 from gymnasium.vector import AutoresetMode  # type: ignore[import-not-found, unused-ignore]
 

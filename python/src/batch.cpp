@@ -33,7 +33,7 @@ Error differ(std::size_t instance, std::size_t first, std::size_t count) {
 }  // namespace
 
 Batch::Batch(std::vector<Scene> scenes, const std::vector<std::size_t>& which, unsigned threads) {
-  const nb::gil_scoped_release others;
+  const Unlocked others;
   std::vector<std::shared_ptr<const Scene>> shared;
   std::vector<SharedModel> models;
   for (Scene& scene : scenes) {
@@ -53,6 +53,7 @@ Batch::Batch(std::vector<Scene> scenes, const std::vector<std::size_t>& which, u
 }
 
 void Batch::raise() {
+  if (Unlocked::ending()) throw stopped_error();  // as far as the GIL, and no further
   const nb::gil_scoped_acquire own;
   throw nb::python_error();
 }
@@ -157,7 +158,12 @@ void Instance::load(const State& state, const InputLog* log) {
 
 void Instance::update(const std::vector<std::string>& overrides) {
   batch_.alone([&](Contents& contents) {
-    set_constants(contents, number_, take(with_overrides(*contents.scenes[number_], overrides)));
+    const Scene& before = *contents.scenes[number_];
+    Scene changed = take(with_overrides(before, overrides));
+    const auto step = static_cast<double>(take(contents.batch.read_into(number_, {})));
+    changed.model = with_continuous_phases(std::move(changed.model), before.model,
+                                           step * before.model.simulation.timestep);
+    set_constants(contents, number_, std::move(changed));
   });
 }
 

@@ -47,7 +47,7 @@ class Batch {
   /// f(Contents&) alone, without the GIL: it may not touch Python.
   template <class F>
   auto alone(const F& f) {
-    const nb::gil_scoped_release others;
+    const Unlocked others;
     if (!turns_.lock_unless(signalled)) raise();
     const std::lock_guard turn(turns_, std::adopt_lock);
     return f(*contents_);

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-namespace aspic::python {
+#include "unlocked.h"
 
-namespace nb = nanobind;
+namespace aspic::python {
 
 /// An error of the library on its way to Python, where it becomes a subclass of aspic.Error.
 class LibraryError : public std::exception {
@@ -39,8 +39,14 @@ inline void check(const Status& status) {
   if (!status) throw LibraryError(status.error());
 }
 
-/// Without the GIL. True: a signal's handler raised an exception, which is set.
+/// What a call raises that stop() of another thread ended.
+inline LibraryError stopped_error() {
+  return LibraryError({ErrorCode::interrupted, "stop() ended the call; the state is that of a whole step"});
+}
+
+/// Without the GIL. True: a signal's handler raised an exception, which is set; or the interpreter ends.
 inline bool signalled() {
+  if (Unlocked::ending()) return true;
   const nb::gil_scoped_acquire own;
   return PyErr_CheckSignals() != 0;
 }

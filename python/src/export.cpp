@@ -27,13 +27,13 @@ class Export {
   }
   /// A state of the scene, which nothing pulls at.
   void add_state(const State& state) {
-    const nb::gil_scoped_release others;
+    const Unlocked others;
     if (!of_scene_) of_scene_ = take(make_model(scene_.model));
     add_sample(of_scene_, state, {});
   }
   /// Completes it with what was added; nothing if there is none, or an error was raised.
   void finish() {
-    const nb::gil_scoped_release others;
+    const Unlocked others;
     if (!complete_) return;
     complete_ = false;
     check(files_.finish({.model = *model_, .state = state_, .inputs = &inputs_}));

@@ -26,6 +26,7 @@ NB_MODULE(_aspic, module) {
   module.doc() = "libaspic for the package aspic, which is its interface.";
   module.attr("version") = ASPIC_VERSION;
   register_errors();
+  module.def("end", &Unlocked::end, "For atexit.");
   bind_scene(module);
   bind_state(module);
   bind_simulation(module);

@@ -79,7 +79,7 @@ std::vector<Row> rows() {
 std::tuple<std::optional<double>, bool> stable_step(const Scene& scene, bool thorough) {
   StabilityLimit limit;
   {
-    const nb::gil_scoped_release others;
+    const Unlocked others;
     const SharedModel model = take(make_model(scene.model));
     limit = stability_limit(*model, scene.model.simulation.integrator,
                             thorough ? StabilityEffort::thorough : StabilityEffort::quick);

@@ -39,11 +39,24 @@ void Chunk::took(std::uint64_t steps, double seconds) {
 
 Simulation::Simulation(Scene scene, const std::string& backend, std::optional<bool> doubles, unsigned threads)
     : scene_(std::move(scene)) {
-  const nb::gil_scoped_release others;
+  bool stopped = false;
+  {
+    const Unlocked others;
+    start(choice_of(backend, doubles, threads), stopped);
+  }
+  if (stopped) throw nb::python_error();
+}
+
+/// A signal leaves the rest undone.
+void Simulation::start(const BackendChoice& choice, bool& stopped) {
   model_ = take(make_model(scene_.model));
-  backend_ = take(make_backend(choice_of(backend, doubles, threads), model_));
+  backend_ = take(make_backend(choice, model_));
+  backend_.solver->set_stop_flag(&stop_);
   overlaps_.emplace(scene_.model, *model_);
-  if (std::string found = overlaps_->at_start(); !found.empty()) warnings_.push_back(std::move(found));
+  if (std::string found = overlaps_->at_start(); !found.empty())
+    warnings_.emplace_back("overlap", std::move(found));
+  std::string unstable = unstable_step_warning(*model_, [&](double) { return !(stopped = signalled()); });
+  if (!unstable.empty()) warnings_.emplace_back("step", std::move(unstable));
 }
 
 void Simulation::refuse_while_viewed() const {
@@ -96,41 +109,68 @@ void Simulation::load(const State& state, const InputLog* log) {
   });
 }
 
-std::optional<Divergence> Simulation::advance_alone(std::uint64_t steps) {
+Advance Simulation::advance_alone(std::uint64_t steps) {
   refuse_while_viewed();
-  const auto divergence = take(aspic::advance(*backend_.solver, log_, step_, steps));
-  step_ = divergence ? divergence->step - 1 : step_ + steps;
-  return divergence;
+  const Advance made = take(aspic::advance(*backend_.solver, log_, step_, steps));
+  step_ += made.steps;
+  return made;
+}
+
+/// Of those that missed the tolerance, the first ones are told of, once.
+void Simulation::look_at_solves() {
+  if (solves_told_) return;
+  const auto solves = backend_.solver->solve_statistics();
+  if (!solves || solves->not_converged == 0) return;
+  solves_told_ = true;
+  warnings_.emplace_back(
+      "solve", std::to_string(solves->not_converged) + " of " + std::to_string(solves->steps) +
+                   " steps of implicit Euler did not converge, up to step " + std::to_string(step_) +
+                   ": raise implicit.newton-iterations or lower simulation.timestep; "
+                   "Simulation.solves has the residuals");
+}
+
+/// Without turn and with the GIL: raises what ended steps early.
+void Simulation::check_stopped(bool stopped) const {
+  if (!stopped) return;
+  if (stop_) throw stopped_error();
+  throw nb::python_error();
 }
 
 void Simulation::look_alone(std::uint64_t before) {
   if (step_ < overlaps_->next_step(before)) return;
   std::string found = overlaps_->look(take(backend_.solver->state()));
-  if (!found.empty()) warnings_.push_back(std::move(found));
+  if (!found.empty()) warnings_.emplace_back("overlap", std::move(found));
 }
 
-std::vector<std::string> Simulation::warnings() {
+std::optional<SolveStatistics> Simulation::solves() {
+  return alone([&] { return backend_.solver->solve_statistics(); });
+}
+
+std::vector<Simulation::Warning> Simulation::warnings() {
   return alone([&] { return std::exchange(warnings_, {}); });
 }
 
-std::optional<Divergence> Simulation::advance(std::uint64_t steps) {
+Advance Simulation::advance(std::uint64_t steps) {
+  stop_ = false;
+  Advance all;
   Chunk chunk;
-  while (steps > 0) {
-    std::uint64_t count = 0;
+  while (all.steps < steps && !all.divergence && !all.stopped) {
     const auto begin = Clock::now();
-    const auto divergence = alone([&] {
-      count = std::min({chunk.size(), steps, steps_to_look()});
+    Advance part = alone([&] {
       const std::uint64_t before = step_;
-      const auto diverged = advance_alone(count);
+      Advance made = advance_alone(std::min({chunk.size(), steps - all.steps, steps_to_look()}));
       look_alone(before);
-      return diverged;
+      look_at_solves();
+      return made;
     });
-    if (divergence) return divergence;
-    steps -= count;
-    chunk.took(count, seconds_since(begin));
+    part.steps += all.steps;
+    chunk.took(part.steps - all.steps, seconds_since(begin));
+    all = part;
+    // A gpu solver does not heed the flag.
+    all.stopped = all.stopped || (stop_ && all.steps < steps && !all.divergence);
     look_for_signals();
   }
-  return std::nullopt;
+  return all;
 }
 
 std::optional<std::uint64_t> Simulation::compare(Simulation& other, std::uint64_t steps) {
@@ -142,7 +182,7 @@ std::optional<std::uint64_t> Simulation::compare(Simulation& other, std::uint64_
     Simulation* const both[2] = {this, &other};
     for (std::size_t s = 0; s < 2; ++s) {
       both[s]->alone([&] {
-        diverged = both[s]->advance_alone(1).has_value() || diverged;
+        diverged = both[s]->advance_alone(1).divergence.has_value() || diverged;
         states[s] = take(both[s]->backend_.solver->state());
         step = std::max(step, states[s].step);
       });
@@ -168,10 +208,12 @@ Result<std::optional<Divergence>> Simulation::advance_visiting(std::uint64_t las
     const std::uint64_t count = std::min({next_step() - step_, last - step_, chunk.size(), steps_to_look()});
     const std::uint64_t before = step_;
     const auto begin = Clock::now();
-    divergence = advance_alone(count);
+    const Advance made = advance_alone(count);
+    divergence = made.divergence;
     look_alone(before);
+    look_at_solves();
     chunk.took(count, seconds_since(begin));
-    stopped = signalled();
+    stopped = made.stopped || stop_ || signalled();
   }
 }
 
@@ -223,16 +265,16 @@ Result<std::optional<Divergence>> Simulation::page_alone(const PageWish& wish, b
 }
 
 std::optional<Divergence> Simulation::page(const PageWish& wish) {
-  bool stopped = false;
+  bool stopped = stop_ = false;
   const auto divergence = alone([&] { return take(page_alone(wish, stopped)); });
-  if (stopped) throw nb::python_error();
+  check_stopped(stopped);
   return divergence;
 }
 
 std::optional<Divergence> Simulation::film(const FilmWish& wish) {
-  bool stopped = false;
+  bool stopped = stop_ = false;
   const auto divergence = alone([&] { return take(film_alone(wish, stopped)); });
-  if (stopped) throw nb::python_error();
+  check_stopped(stopped);
   return divergence;
 }
 
@@ -249,9 +291,13 @@ void Simulation::update(const std::vector<std::string>& overrides) {
   alone([&] {
     refuse_while_viewed();
     Scene changed = take(with_overrides(scene_, overrides));
+    changed.model = with_continuous_phases(std::move(changed.model), scene_.model, time_alone());
     const SharedModel model = take(make_model(changed.model));
     check(backend_.solver->set_constants(model));
     painter_.reset();
+    // Another time step keeps the time: steps have other numbers.
+    step_ = take(backend_.solver->read_into({}));
+    log_ = log_.with_timestep(scene_.model.simulation.timestep, changed.model.simulation.timestep);
     scene_ = std::move(changed);
     model_ = model;
     OverlapWatch watch(scene_.model, *model_, false);

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "convert.h"
@@ -68,7 +69,7 @@ class Simulation {
   /// Runs f alone, without the GIL: it may not touch Python.
   template <class F>
   auto alone(const F& f) {
-    const nb::gil_scoped_release others;
+    const Unlocked others;
     const std::lock_guard turn(turns_);
     return f();
   }
@@ -92,15 +93,21 @@ class Simulation {
     alone([&] { f(model_, take(backend_.solver->state()), backend_.solver->inputs()); });
   }
 
-  /// The step that failed ends it.
-  std::optional<Divergence> advance(std::uint64_t steps);
+  /// The step that failed ends it, and stop().
+  Advance advance(std::uint64_t steps);
+  /// Ends what steps in another thread.
+  void stop() { stop_ = true; }
+  /// Figures of implicit Euler; nothing with other integrators.
+  std::optional<SolveStatistics> solves();
   std::optional<Divergence> film(const FilmWish& wish);
   std::optional<Divergence> page(const PageWish& wish);
   /// The first step whose states differ, of so many; both advance until there.
   std::optional<std::uint64_t> compare(Simulation& other, std::uint64_t steps);
 
-  /// What there was to warn of since the last call: bodies within each other.
-  std::vector<std::string> warnings();
+  /// A kind (overlap, solve, step) and a sentence.
+  using Warning = std::pair<std::string, std::string>;
+  /// What there was to warn of since the last call.
+  std::vector<Warning> warnings();
 
   std::vector<std::byte> picture(const std::vector<std::string>& view, const PictureSize& size, bool text);
   /// Another model of the same topology.
@@ -124,11 +131,16 @@ class Simulation {
   void write_file(const std::string& option, const std::string& path, bool overwrite);
   void refuse_while_viewed() const;
   RunFacts facts_alone() const;
-  std::optional<Divergence> advance_alone(std::uint64_t steps);
+  void start(const BackendChoice& choice, bool& stopped);
+  double time_alone() const { return static_cast<double>(step_) * scene_.model.simulation.timestep; }
+  Advance advance_alone(std::uint64_t steps);
+  void look_at_solves();
+  void check_stopped(bool stopped) const;
   /// Steps to the next look at bodies that may be within each other, and the look where it is due.
   std::uint64_t steps_to_look() const { return overlaps_->next_step(step_) - step_; }
   void look_alone(std::uint64_t before);
-  /// Steps to `last`, with visit() at the steps that next_step() names, until a divergence or a signal.
+  /// Steps to `last`, with visit() at the steps that next_step() names, until a divergence, a signal or
+  /// stop().
   template <class Next, class Visit>
   Result<std::optional<Divergence>> advance_visiting(std::uint64_t last, const Next& next_step,
                                                      const Visit& visit, bool& stopped);
@@ -142,7 +154,9 @@ class Simulation {
   InputLog log_;
   std::uint64_t step_ = 0;
   std::optional<OverlapWatch> overlaps_;  // of model_
-  std::vector<std::string> warnings_;     // not told yet
+  std::vector<Warning> warnings_;         // not told yet
+  std::atomic<bool> stop_ = false;
+  bool solves_told_ = false;
   std::atomic<int> views_ = 0;
   std::unique_ptr<StillPainter> painter_;  // after backend_, which it draws from
 };

@@ -68,6 +68,9 @@ InputLog read_log(Simulation& simulation, const std::string& path) {
   return take(read_inputs(path, {scene.model, *simulation.model()}));
 }
 
+/// SolveStatistics without the latest step.
+using SolveRow = std::tuple<std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t,
+                            std::uint64_t, double>;
 using Resumed = std::tuple<Scene, State, std::string>;
 
 Resumed read_resumed(const std::string& path) {
@@ -100,9 +103,23 @@ void bind_simulation(nb::module_& module) {
           "load", [](Simulation& s, const State& state, const InputLog* log) { s.load(state, log); },
           nb::arg("state"), nb::arg("log").none(), "Takes over a state, with its inputs.")
       .def(
-          "advance", [](Simulation& s, std::uint64_t steps) { return told(s.advance(steps)); },
-          nb::arg("steps"), "Steps; what diverged.")
-      .def("warnings", &Simulation::warnings, "Sentences, each told once.")
+          "advance",
+          [](Simulation& s, std::uint64_t steps) {
+            const Advance made = s.advance(steps);
+            return std::make_tuple(made.steps, told(made.divergence), made.stopped);
+          },
+          nb::arg("steps"), "Steps made, what diverged, whether stop() ended them.")
+      .def("stop", &Simulation::stop, "Ends what goes on in another thread.")
+      .def(
+          "solves",
+          [](Simulation& s) -> std::optional<SolveRow> {
+            const auto all = s.solves();
+            if (!all) return std::nullopt;
+            return SolveRow(all->steps, all->converged, all->stagnated, all->not_converged,
+                            all->newton_iterations, all->cg_iterations, all->worst_residual);
+          },
+          "Figures of implicit Euler; None with other integrators.")
+      .def("warnings", &Simulation::warnings, "Kinds and sentences, each told once.")
       .def("compare", &Simulation::compare, nb::arg("other"), nb::arg("steps"),
            "The first step that differs.")
       .def("view", &view, nb::arg("field"), "A field in the solver's memory; None on a device.")

@@ -5,6 +5,8 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -32,6 +34,12 @@ Array<double> read_field(State& state, std::size_t field) {
 void write_field(State& state, std::size_t field, const Vectors& numbers) {
   std::vector<Vec3> vectors;
   vectors.reserve(numbers.shape(0));
+  const double limit = state.precision == Precision::single ? std::numeric_limits<float>::max()
+                                                            : std::numeric_limits<double>::max();
+  for (std::size_t n = 0; n < 3 * numbers.shape(0); ++n)
+    if (!(std::abs(numbers.data()[n]) <= limit))
+      throw LibraryError({ErrorCode::usage, "the " + std::string(state_fields[field].name) + " of " +
+                                                std::to_string(n / 3) + " is not a finite number"});
   for (std::size_t i = 0; i < numbers.shape(0); ++i)
     vectors.push_back({numbers.data()[3 * i], numbers.data()[3 * i + 1], numbers.data()[3 * i + 2]});
   field_of(state, field) = std::move(vectors);

@@ -32,7 +32,7 @@ RunTuple run_of(const Scene& scene, const std::string& backend, std::optional<bo
                 std::optional<double> duration) {
   SweepRun run;
   {
-    const nb::gil_scoped_release others;
+    const Unlocked others;
     std::vector<Difference> all;
     for (const auto& [key, value] : differences) all.push_back({key, value});
     run = sweep_run(scene, choice_of(backend, doubles, 0), {steps, duration}, all);
@@ -51,7 +51,7 @@ RunTuple run_of(const Scene& scene, const std::string& backend, std::optional<bo
 template <class T>
 void take_state(RunFigures& figures, T& from) {
   const State state = from.state();
-  const nb::gil_scoped_release others;
+  const Unlocked others;
   figures.take(state);
 }
 

@@ -109,7 +109,7 @@ def test_controls_are_inputs_by_step(robot: aspic.Scene) -> None:
     for wrong, words in ((np.zeros((5, 3)), r"\(steps, 2\), of grow, bend"), (np.zeros(5), r"\(steps, 2\)")):
         with pytest.raises(aspic.UsageError, match=words):
             sim.run(controls=wrong)
-    with pytest.raises(aspic.UsageError, match="5 controls"):
+    with pytest.raises(aspic.UsageError, match="5 rows"):
         sim.run(steps=4, controls=np.zeros((5, 2)))
 
 

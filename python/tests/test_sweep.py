@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import csv
+import functools
 import json
 import os
 import pathlib
@@ -209,6 +210,94 @@ def test_arguments_that_are_wrong_are_said_before_any_run(scene: aspic.Scene) ->
         aspic.sweep(scene, {"k": [1]}, out="file")
     with pytest.raises(aspic.FileError, match="no folder of runs"):
         aspic.collect("nowhere")
+
+
+def coordinate(run: aspic.Trajectory, axis: int) -> float:
+    return float(run["centre-of-mass"][-1, axis])
+
+
+class Coordinate:
+    def __init__(self, axis: int):
+        self.axis = axis
+
+    def __call__(self, run: aspic.Trajectory) -> float:
+        return coordinate(run, self.axis)
+
+    def method(self, run: aspic.Trajectory) -> float:
+        return coordinate(run, self.axis)
+
+
+def closure(axis: int) -> Any:
+    return lambda run: coordinate(run, axis)
+
+
+def decorated(axis: int) -> Any:
+    @functools.wraps(coordinate)
+    def inner(run: aspic.Trajectory) -> float:
+        return coordinate(run, axis)
+
+    return inner
+
+
+AXIS = 0
+
+
+def of_global(axis: int) -> Any:
+    global AXIS
+    AXIS = axis
+    return lambda run: coordinate(run, AXIS)
+
+
+@pytest.mark.parametrize(
+    "metric",
+    [
+        lambda axis: functools.partial(coordinate, axis=axis),
+        closure,
+        lambda axis: lambda run, axis=axis: coordinate(run, axis),
+        Coordinate,
+        lambda axis: Coordinate(axis).method,
+        decorated,
+        lambda axis: functools.partial(closure(axis)),
+        of_global,
+    ],
+)
+def test_another_metric_of_the_same_name_is_computed(scene: aspic.Scene, metric: Any) -> None:
+    def made(axis: int) -> aspic.Table:
+        return aspic.sweep(scene, {"k": [500]}, {"m": metric(axis)}, out="runs", steps=20)
+
+    first, second = made(0), made(1)
+    assert first["m"][0] == pytest.approx(0, abs=0.1) and second["m"][0] > 1
+    again = made(1)
+    assert again["seconds"] == second["seconds"], "the same metric is kept"
+    assert made(0)["m"] == first["m"]
+
+
+def test_a_metric_without_identity_is_computed_anew(scene: aspic.Scene) -> None:
+    lock = threading.Lock()
+    metric = functools.partial(lambda run, of: float(run["max-speed"].max()), of=lock)
+    with pytest.warns(UserWarning, match="computed anew"):
+        first = aspic.sweep(scene, {"k": [500]}, {"m": metric}, out="runs", steps=20)
+    with pytest.warns(UserWarning, match="computed anew"):
+        second = aspic.sweep(scene, {"k": [500]}, {"m": metric}, out="runs", steps=20)
+    assert first["m"] == second["m"] and first["seconds"] != second["seconds"]
+
+
+def test_a_metric_that_needs_many_samples_gets_all_that_it_asks_for(scene: aspic.Scene) -> None:
+    def late(run: aspic.Trajectory) -> float:
+        return float(run["max-speed"][5]) + float(run["min-height"].min())
+
+    table = aspic.sweep(scene, {"k": [500]}, {"m": late}, every=0.001, steps=20)
+    assert table["outcome"] == ["ok"] and isinstance(table["m"][0], float)
+
+
+def test_a_metric_that_always_fails_says_what_to_pass(scene: aspic.Scene) -> None:
+    def later(run: aspic.Trajectory) -> float:
+        if run.time[-1] < 0.5:
+            raise ValueError("too short")
+        return float(run["min-height"].min())
+
+    table = aspic.sweep(scene, {"k": [500]}, {"m": later}, duration=0.6)
+    assert table["outcome"] == ["failed"] and "record=" in table["reason"][0] and table["m"] == [None]
 
 
 def test_damaged_and_foreign_files_are_made_again(scene: aspic.Scene) -> None:
