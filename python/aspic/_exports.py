@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from . import _aspic
 from ._errors import UsageError
+from ._numbers import name_of
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -211,9 +212,10 @@ def _remove(path: str) -> None:
 
 def ending_of(path: Path) -> str:
     """In lower case, one of ``ENDINGS``. Raises UsageError for others."""
-    ending = os.path.splitext(os.fspath(path))[1].lower()
+    name = name_of(path)
+    ending = os.path.splitext(name)[1].lower()
     if ending not in ENDINGS:
-        raise UsageError(f"a motion is exported as {', '.join(ENDINGS)}, not as {os.fspath(path)!r}")
+        raise UsageError(f"a motion is exported as {', '.join(ENDINGS)}, not as {name!r}")
     return ending
 
 

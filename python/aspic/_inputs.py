@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from . import _aspic
 from ._errors import UsageError
+from ._numbers import name_of
 from ._reading import Readable
 
 if TYPE_CHECKING:
@@ -193,4 +194,4 @@ class Replayable(Steerable):
         What is assigned to ``pulls`` and ``pinned`` later replaces the rest of it. Raises SceneError with every mistake
         and its line; FileError.
         """
-        self._core.set_log(self._core.read_log(os.fspath(path)))
+        self._core.set_log(self._core.read_log(name_of(path)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import os
 from typing import TYPE_CHECKING, Any
 
 from ._errors import UsageError
@@ -11,7 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["floats", "pace", "positive", "whole"]
+__all__ = ["floats", "name_of", "pace", "positive", "whole"]
 
 MOST_STEPS = 2**53
 MOST_FPS = 1000
@@ -70,3 +71,14 @@ def floats(numbers: Any, shape: tuple[int, ...], what: str, single: bool = False
         raise UsageError(f"{what} are finite numbers; that at {tuple(bad[0].tolist())} is {result[tuple(bad[0])]}")
     return result
 
+
+
+def name_of(path: Any) -> str:
+    """A path as the library takes it. Raises UsageError for what is none, and for one that would be cut at a NUL."""
+    try:
+        name = os.fsdecode(path)
+    except TypeError:
+        raise UsageError(f"a path is a str or an os.PathLike, not {type(path).__name__}") from None
+    if not name or "\0" in name:
+        raise UsageError(f"{name!r} is no path of a file")
+    return name

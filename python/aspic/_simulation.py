@@ -21,7 +21,7 @@ from ._errors import (
 )
 from ._exports import OF_LIBRARY, ending_of
 from ._inputs import Replayable
-from ._numbers import floats, pace, positive, whole
+from ._numbers import floats, name_of, pace, positive, whole
 from ._scene import Scene, changes, load
 from ._state import State, field_index
 from ._toml import assignments
@@ -236,7 +236,7 @@ class Simulation(Replayable):
         count = self._steps_of(duration, steps)
         positive(every, "every, the interval of samples [s],")
         ending = ending_of(path)
-        name = os.fspath(path)
+        name = name_of(path)
         if ending in OF_LIBRARY:
             writer = _aspic.Export(self._core.scene, name, overwrite)
             try:
@@ -328,7 +328,7 @@ class Simulation(Replayable):
         file exists, unless ``overwrite``.
         """
         if path is not None:
-            name = os.fspath(path)
+            name = name_of(path)
             if name.endswith((".csv", ".vtp")):
                 self._core.write_state(name, overwrite)
             else:
@@ -382,7 +382,7 @@ class Simulation(Replayable):
         count = self._steps_of(duration, steps)
         pace(fps, speed)
         _check_size(width, height)
-        found = self._core.film(os.fspath(path), count, fps, speed, width, height, text, overwrite)
+        found = self._core.film(name_of(path), count, fps, speed, width, height, text, overwrite)
         self._warn()
         if found:
             raise diverged(found)
@@ -408,11 +408,11 @@ class Simulation(Replayable):
         """
         count = self._steps_of(duration, steps)
         pace(fps, speed)
-        words = ["--page-live" if live else "--page", os.fspath(path)]
+        words = ["--page-live" if live else "--page", name_of(path)]
         for word, value, usual in (("--fps", fps, 60.0), ("--speed", speed, 1.0)):
             words += [] if value == usual else [word, repr(value)]
         command = page_command(self, count, words)
-        found = self._core.page(os.fspath(path), count, fps, speed, live, overwrite, command)
+        found = self._core.page(name_of(path), count, fps, speed, live, overwrite, command)
         self._warn()
         if found:
             raise diverged(found)
@@ -465,10 +465,10 @@ def resume(path: Path, backend: str = "auto", *, threads: int = 0) -> Simulation
 
     Scene, state, precision and inputs are the file's. Raises FileError, SceneError, and what ``Simulation()`` raises.
     """
-    scene, state, inputs = _aspic.read_checkpoint(os.fspath(path))
+    scene, state, inputs = _aspic.read_checkpoint(name_of(path))
     simulation = Simulation(Scene._of(scene), backend, precision="double" if state.doubles else None, threads=threads)
     if simulation.precision != ("double" if state.doubles else "single"):
         raise SceneError(f"{path} was written in another precision than {simulation.backend} has")
     core = simulation._core
-    core.load(state, core.parse_log(inputs, os.fspath(path)) if inputs else None)
+    core.load(state, core.parse_log(inputs, name_of(path)) if inputs else None)
     return simulation

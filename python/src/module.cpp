@@ -1,18 +1,29 @@
 // The extension module aspic._aspic: libaspic as Python sees it. What users meet is python/aspic.
 #include <aspic/version.h>
 
+#include <filesystem>
+
 #include "convert.h"
 
 namespace aspic::python {
+namespace {
+
+void raise(ErrorCode code, const char* text) {
+  const nb::object made =
+      nb::module_::import_("aspic._errors").attr("error_of")(static_cast<int>(code), text);
+  PyErr_SetObject(made.type().ptr(), made.ptr());
+}
+
+}  // namespace
 
 void register_errors() {
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {
       std::rethrow_exception(thrown);
     } catch (const LibraryError& e) {
-      const nb::object made =
-          nb::module_::import_("aspic._errors").attr("error_of")(static_cast<int>(e.code()), e.what());
-      PyErr_SetObject(made.type().ptr(), made.ptr());
+      raise(e.code(), e.what());
+    } catch (const std::filesystem::filesystem_error& e) {  // the working directory is gone, say
+      raise(ErrorCode::io, e.what());
     }
   });
 }

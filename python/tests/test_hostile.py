@@ -409,11 +409,24 @@ def test_pages_have_a_largest_rate(scene: aspic.Scene) -> None:
         (lambda sim: aspic.load("cube-plan"), "did you mean 'cube-plane'"),
         (lambda sim: sim.scene.__delitem__("name"), "cannot be removed"),
         (lambda sim: sim.update({"cube[0].position": [0, 9, 0]}), "start"),
+        (lambda sim: sim.save("a\0b.aspic"), "no path of a file"),
+        (lambda sim: sim.export("a\0b.npz", 0.0), "no path of a file"),
+        (lambda sim: sim.film(None, 0.0), "path is a str"),
     ],
 )
 def test_errors_say_what_to_do(scene: aspic.Scene, call: Callable[[Any], Any], says: str) -> None:
     with pytest.raises(aspic.Error, match=says):
         call(aspic.Simulation(scene, "cpu"))
+
+
+def test_a_folder_that_is_gone_is_a_file_error(scene: aspic.Scene) -> None:
+    os.mkdir("gone")
+    os.chdir("gone")
+    os.rmdir(os.getcwd())
+    sim = aspic.Simulation(scene, "cpu")
+    for call in (lambda: sim.export("x.pvd", 0.0), lambda: sim.save("x.aspic")):
+        with pytest.raises(aspic.FileError):
+            call()
 
 
 def test_a_scene_is_a_mapping(scene: aspic.Scene) -> None:
