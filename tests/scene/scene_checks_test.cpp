@@ -4,8 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "aspic/run.h"
 #include "model/bodies.h"
 #include "model/integrator.h"
 #include "scene/reader.h"
@@ -63,25 +68,31 @@ std::vector<Value> wrong_values(const Parameter& p) {
   }
 }
 
+/// A scene in which a key has a value, and the index it has it at.
+std::pair<Scene, std::size_t> scene_with(const Parameter& p, const Value& value) {
+  Scene scene = full_scene();
+  const std::size_t last = index_count(p, scene);
+  if (p.path.find("[]") != std::string_view::npos) {
+    for (const SettingsList& list : settings_lists()) list.append(scene.model);
+  }
+  const std::size_t index = index_count(p, scene) == last ? 0 : last;
+  if (p.belonging == Belonging::geometry) {
+    for (const TerrainShapeRow& row : terrain_shapes) {
+      if (belongs_to_shape(p, row.value)) scene.model.terrain[index].shape = row.value;
+    }
+  }
+  if (p.belonging == Belonging::wave) scene.model.actuators[index].phase.along = BodyAxis::x;
+  if (p.belonging == Belonging::material) material_place(scene.model, p.section(), index)->emplace();
+  p.set(scene, index, value);
+  return {std::move(scene), index};
+}
+
 TEST(CheckScene, NamesThePathOfEveryWrongValue) {
   for (const Parameter& p : parameters()) {
     if (p.path == "schema" || reader::is_cell_source(p.path) || reader::is_actuator_source(p.path))
       continue;  // no field of a scene
     for (const Value& wrong : wrong_values(p)) {
-      Scene scene = full_scene();
-      const std::size_t last = index_count(p, scene);
-      if (p.path.find("[]") != std::string_view::npos) {
-        for (const SettingsList& list : settings_lists()) list.append(scene.model);
-      }
-      const std::size_t index = index_count(p, scene) == last ? 0 : last;
-      if (p.belonging == Belonging::geometry) {
-        for (const TerrainShapeRow& row : terrain_shapes) {
-          if (belongs_to_shape(p, row.value)) scene.model.terrain[index].shape = row.value;
-        }
-      }
-      if (p.belonging == Belonging::wave) scene.model.actuators[index].phase.along = BodyAxis::x;
-      if (p.belonging == Belonging::material) material_place(scene.model, p.section(), index)->emplace();
-      p.set(scene, index, wrong);
+      const auto [scene, index] = scene_with(p, wrong);
       const auto complaints = check_scene(scene);
       ASSERT_EQ(complaints.size(), 1u) << p.path;
       EXPECT_EQ(complaints[0].path, path_text(p.path, index));
@@ -90,6 +101,31 @@ TEST(CheckScene, NamesThePathOfEveryWrongValue) {
       EXPECT_EQ(complaints[0].element, one_of_many ? std::optional<std::size_t>(1) : std::nullopt) << p.path;
     }
   }
+}
+
+// Scenes that code makes are not checked key by key: what reaches a solver is. What is taken has no part in
+// it: a material that nothing is made of, the axis of no rotation.
+TEST(MakeModel, RefusesNumbersOfEveryKeyThatASolverWouldGetNotFinite) {
+  std::size_t refused = 0, taken = 0;
+  for (const Parameter& p : parameters()) {
+    if (p.only_shown() || reader::is_cell_source(p.path) || reader::is_actuator_source(p.path)) continue;
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), HUGE_VAL, 1e300}) {
+      std::optional<Value> value;
+      if (p.type == ParameterType::number) value = bad;
+      if (p.type == ParameterType::vector) value = Vec3{1.0, bad, 1.0};
+      if (p.type == ParameterType::numbers) value = std::vector<double>(p.components, bad);
+      if (!value) continue;
+      const auto model = make_model(scene_with(p, *value).first.model);
+      ++(model.ok() ? taken : refused);
+      if (!model) continue;
+      const auto backend = make_backend(*parse_backend("reference"), *model);
+      ASSERT_TRUE(backend.ok());
+      const auto made = backend->solver->advance(2);
+      ASSERT_TRUE(made.ok());
+      EXPECT_TRUE(!made->divergence || made->divergence->finite) << p.path << " = " << bad;
+    }
+  }
+  EXPECT_GT(refused, 3 * taken);
 }
 
 TEST(CheckScene, FindsWhatOnlyTheWholeShows) {
