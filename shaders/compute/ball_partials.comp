@@ -9,12 +9,12 @@
 void main() {
   uint i = item_index();
   if (idle() || i >= work.items_used) return;
-  uint body = items[i].body, count = count_in(i);
-  if (!phase_has(body < ball_count ? KIND_BALL : KIND_PARTICLE, items[i].kind)) return;
+  uint body = items[i].body, kind = items[i].kind, count = count_in(i);
+  if (!phase_has(body < ball_count ? KIND_BALL : KIND_PARTICLE, kind)) return;
   if (count == 0u || touches[body].pairs[ball_phase] <= PARTNER_BLOCK) return;
 
   Partners of = partners_of(body);
-  uint place = items[i].kind == KIND_BALL ? i - of.first_a : of.count_a + (i - of.first_b);
+  uint place = kind == KIND_BALL ? i - of.first_a : of.count_a + (i - of.first_b);
   uint before = uint(bitCount(of.listed));
   uint rounds = bounded(place, KERNEL_BALL_PARTIALS);
   for (uint k = 0u; k < rounds; ++k) before += count_in(item_at(of, k));

@@ -37,7 +37,8 @@ void tally_list(uint p) {
   Seeker seeker = seeking_particle(p);
   uint acting = 0u;
   for (uint n = 0u; n < touch.listed; ++n) {
-    if (acts(seeker, KIND_BALL, lists[touch.list + n])) acting |= 1u << n;
+    uint b = lists[touch.list + n];
+    if (acts(seeker, KIND_BALL, b)) acting |= 1u << n;
   }
   touches[ball_count + p].acting = acting;
   touches[ball_count + p].pairs[BALL_PHASE_PARTICLES] = uint(bitCount(acting));

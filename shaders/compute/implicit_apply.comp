@@ -55,7 +55,7 @@ void main() {
   ++solve.cg;
   ++solve.cg_total;
   if (total.y > 0.0) {
-    precise float alpha = exact_div(solve.rz, total.y);
+    precise float alpha = exact_div(float(solve.rz), total.y);
     solve.alpha = alpha;
   } else {
     solve.phase = PHASE_EVALUATE;

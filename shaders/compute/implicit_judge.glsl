@@ -47,7 +47,7 @@ void judge(vec4 total) {
   precise float forcing = first_forcing;
   if (solve.first == 0u) {
     solve.without_progress = residual < enough_progress ? 0u : solve.without_progress + 1u;
-    precise float ratio = exact_div(merit, solve.merit);
+    precise float ratio = exact_div(merit, float(solve.merit));
     forcing = next_forcing(ratio);
   }
   if (solve.first != 0u || residual < solve.best) solve.best = residual;

@@ -25,5 +25,6 @@ void main() {
   uint n = item_index();
   if (n >= touch_count || enter() != PHASE_CG || solve.touching == 0u) return;
   uint first = first_record(n), end = first + records[first].corner.w;
-  for (uint r = first; r < end; ++r) multiply(encounters[n], r);
+  TouchEncounter of = encounters[n];
+  for (uint r = first; r < end; ++r) multiply(of, r);
 }

@@ -46,7 +46,8 @@ void main() {
   uint phase = enter();
   if (n >= touch_count || (phase != PHASE_TOUCH && phase != PHASE_EVALUATE) || solve.touching == 0u) return;
   uint first = first_record(n), end = first + records[first].corner.w;
+  TouchEncounter of = encounters[n];
   bool acts = false;
-  for (uint r = first; r < end; ++r) acts = react(encounters[n], r) || acts;
+  for (uint r = first; r < end; ++r) acts = react(of, r) || acts;
   if (acts) atomicMax(solve.ground, 1u);
 }

@@ -38,7 +38,7 @@ void main() {
   } else if (!(total.y > solve.enough) || solve.cg == max_cg) {
     solve.phase = PHASE_EVALUATE;
   } else {
-    precise float beta = exact_div(total.y, solve.rz);
+    precise float beta = exact_div(total.y, float(solve.rz));
     solve.beta = beta;
     solve.rz = total.y;
   }

@@ -8,5 +8,6 @@
 void main() {
   uint i = item_index();
   if (i >= particle_count || halted()) return;
-  end_stage(i, stage_state[i], out_state[i].velocity.xyz);
+  Particle p = stage_state[i];
+  end_stage(i, p, out_state[i].velocity.xyz);
 }

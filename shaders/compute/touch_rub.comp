@@ -19,7 +19,10 @@ vec3 end_velocity(uint i) { return values[i].xyz; }
 void main() {
   uint n = item_index();
   if (n >= touch_count || halted()) return;
+  TouchEncounter of = encounters[n];
   uint first = first_record(n), end = first + records[first].corner.w;
-  for (uint r = first; r < end; ++r)
-    if (records[r].normal.w > 0.0) records[r].rub.xyz = friction_of(encounters[n], records[r]);
+  for (uint r = first; r < end; ++r) {
+    TouchRecord contact = records[r];
+    if (contact.normal.w > 0.0) records[r].rub.xyz = friction_of(of, contact);
+  }
 }

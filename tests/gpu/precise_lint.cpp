@@ -6,17 +6,10 @@
 #include <map>
 #include <set>
 
+#include "gpu/glsl_tokens.h"
+
 namespace aspic::testing {
 namespace {
-
-struct Token {
-  std::string text;
-  int line = 0;
-};
-
-bool is_name(std::string_view t) {
-  return !t.empty() && (std::isalpha(static_cast<unsigned char>(t.front())) || t.front() == '_');
-}
 
 bool is_float_type(const std::string& t) {
   static const std::set<std::string> types = {"float", "vec2", "vec3", "vec4", "double", "dvec2", "dvec3",
@@ -52,49 +45,6 @@ bool is_zero(const std::string& t) {
   if (!is_float_literal(t)) return false;
   return std::ranges::none_of(t.substr(0, t.find_first_of("eE")),
                               [](char c) { return c >= '1' && c <= '9'; });
-}
-
-/// Names, numbers and operators; comments gone, and of preprocessor lines only what a #define puts in place.
-std::vector<Token> tokens_of(std::string_view text) {
-  std::vector<Token> tokens;
-  int line = 1;
-  bool fresh_line = true;
-  for (std::size_t i = 0; i < text.size();) {
-    const char c = text[i];
-    if (c == '\n') {
-      ++line, ++i, fresh_line = true;
-    } else if (std::isspace(static_cast<unsigned char>(c))) {
-      ++i;
-    } else if (text.substr(i, 2) == "//") {
-      i = std::min(text.find('\n', i), text.size());
-    } else if (text.substr(i, 2) == "/*") {
-      const std::size_t end = std::min(text.find("*/", i + 2), text.size() - 2) + 2;
-      line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
-                                          text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
-      i = end;
-    } else if (c == '#' && fresh_line) {
-      const std::size_t end = std::min(text.find('\n', i), text.size());
-      const std::size_t define = text.substr(i, end - i).find("define ");
-      i = define == std::string_view::npos ? end : i + define + 7;
-    } else {
-      fresh_line = false;
-      std::size_t end = i + 1;
-      const auto word = [](char x) { return std::isalnum(static_cast<unsigned char>(x)) || x == '_'; };
-      if (word(c) || (c == '.' && end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])))) {
-        const bool number = !is_name(text.substr(i, 1));
-        while (end < text.size() && (word(text[end]) || (number && text[end] == '.') ||
-                                     (number && (text[end] == '+' || text[end] == '-') &&
-                                      (text[end - 1] == 'e' || text[end - 1] == 'E'))))
-          ++end;
-      } else if (end < text.size() && std::string_view("=+-<>&|").find(text[end]) != std::string_view::npos &&
-                 (text[end] == '=' || text[end] == c)) {
-        ++end;
-      }
-      tokens.push_back({std::string(text.substr(i, end - i)), line});
-      i = end;
-    }
-  }
-  return tokens;
 }
 
 class Linter {

@@ -3,13 +3,14 @@
 // refuse.
 #include <fmt/format.h>
 #include <glad/gl.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cstdio>
 #include <map>
 #include <set>
 
 #include "gpu/canary.h"
+#include "gpu/portable_lint.h"
 #include "gpu_solver/gpu_solver.h"
 #include "model/terrain.h"
 #include "render/studio.h"
@@ -22,6 +23,9 @@ namespace {
 /// The sources that went to the driver, by stage.
 std::map<GLenum, std::set<std::string>> seen;
 PFNGLSHADERSOURCEPROC driver_shader_source = nullptr;
+/// What the driver warned of.
+std::set<std::string> warnings;
+PFNGLCOMPILESHADERPROC driver_compile_shader = nullptr;
 
 void GLAD_API_PTR record(GLuint shader, GLsizei count, const GLchar* const* texts, const GLint* lengths) {
   GLint kind = 0;
@@ -30,6 +34,14 @@ void GLAD_API_PTR record(GLuint shader, GLsizei count, const GLchar* const* text
   for (GLsizei i = 0; i < count; ++i) source.append(texts[i], static_cast<std::size_t>(lengths[i]));
   seen[static_cast<GLenum>(kind)].insert(std::move(source));
   driver_shader_source(shader, count, texts, lengths);
+}
+
+void GLAD_API_PTR compile(GLuint shader) {
+  driver_compile_shader(shader);
+  char log[1024];
+  GLsizei length = 0;
+  glGetShaderInfoLog(shader, sizeof log, &length, log);
+  if (length > 0) warnings.insert(log);
 }
 
 std::string_view word_of(GLenum kind) {
@@ -50,9 +62,11 @@ class Glslang : public aspic::testing::GlTest {
   void SetUp() override {
     GlTest::SetUp();
     driver_shader_source = std::exchange(glad_glShaderSource, record);
+    driver_compile_shader = std::exchange(glad_glCompileShader, compile);
   }
   void TearDown() override {
     glad_glShaderSource = driver_shader_source;
+    glad_glCompileShader = driver_compile_shader;
     GlTest::TearDown();
   }
 
@@ -117,11 +131,17 @@ TEST_F(Glslang, AcceptsEveryShaderWithEverySetOfDefines) {
   const test::TemporaryDirectory directory;
   int number = 0;
   for (const auto& [kind, sources] : seen) {
-    for (const std::string& source : sources)
+    for (const std::string& source : sources) {
       directory.write(fmt::format("{}.{}", number++, word_of(kind)), source);
+      for (const auto& [line, rule, text] :
+           aspic::testing::lint_portability(source, aspic::testing::Branches::taken))
+        ADD_FAILURE() << rule << " (" << text << ") in line " << line << " of\n" << source;
+    }
   }
   EXPECT_GT(number, 60);
   EXPECT_EQ(complaints(directory), "");
+  // Mesa warns of what is legal and yet not for every driver, such as a mask of another sign.
+  EXPECT_THAT(warnings, ::testing::IsEmpty());
   // Nothing was left out: what follows the includes of every file with a main() has been seen.
   for (const EmbeddedFile& file : embedded_shaders()) {
     const std::string_view text = file.text;
