@@ -7,6 +7,7 @@
 #include "support/gl_fixture.h"
 #include "support/integrator_names.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -17,9 +18,7 @@ class ActuatedOnTheDevice : public aspic::testing::GlTest {
     GpuOptions options;
     options.split_stages = true;
     options.force_path = path;
-    auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
-    return std::move(made).value();
+    return test::value_of(make_gpu_solver(context(), model, options));
   }
   static std::unique_ptr<Solver> reference(const Model& model) {
     return std::move(*make_reference_solver(model, Precision::single));

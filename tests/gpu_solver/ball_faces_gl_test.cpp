@@ -9,6 +9,7 @@
 #include "support/integrator_names.h"
 #include "support/model_building.h"
 #include "support/reference_runs.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -82,7 +83,7 @@ TEST_F(BallFacesOnTheDevice, HaveThemWithManyBallsOnAFace) {
 
 TEST_F(BallFacesOnTheDevice, TakeTheBytesThatWereSaid) {
   const Model model = test::build(shower(Integrator::midpoint, 3));
-  const auto solver = std::move(make_gpu_solver(context(), model, {})).value();
+  const auto solver = test::value_of(make_gpu_solver(context(), model, {}));
   EXPECT_GT(gpu_bytes(model, ForcePath::automatic), 0u);
   EXPECT_GE(solver->bytes(), gpu_bytes(model, ForcePath::automatic));
 }

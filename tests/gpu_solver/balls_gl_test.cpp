@@ -5,6 +5,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -16,9 +17,7 @@ class BallsOnTheDevice : public aspic::testing::GlTest {
     GpuOptions options;
     options.ball_search = search;
     options.force_path = path;
-    auto solver = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message());
-    return std::move(solver).value();
+    return test::value_of(make_gpu_solver(context(), model, options));
   }
 
   static void expect_equal(const Model& model, std::uint64_t steps,

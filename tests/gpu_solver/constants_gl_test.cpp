@@ -8,6 +8,7 @@
 #include "support/equality_cases.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -57,10 +58,9 @@ class ConstantsOnTheDevice : public aspic::testing::GlTest {
     options.split_stages = true;
     options.force_path = path;
     options.lattice_run = run;
-    auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << made.error().message();
-    (*made)->set_late(true);
-    return std::move(made).value();
+    auto made = test::value_of(make_gpu_solver(context(), model, options));
+    made->set_late(true);
+    return made;
   }
 };
 

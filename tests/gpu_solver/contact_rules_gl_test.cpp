@@ -5,6 +5,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "support/contact_rules.h"
 #include "support/gl_fixture.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -12,9 +13,7 @@ namespace {
 class ContactRules : public aspic::testing::GlTest {
  protected:
   std::unique_ptr<Solver> solver(const Model& model) {
-    auto made = make_gpu_solver(context(), model, {});
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
-    return std::move(made).value();
+    return test::value_of(make_gpu_solver(context(), model, {}));
   }
 };
 

@@ -9,6 +9,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -16,9 +17,7 @@ namespace {
 class Crowds : public aspic::testing::GlTest {
  protected:
   static std::unique_ptr<GpuSolver> solver_for(const Model& model, const GpuOptions& options = {}) {
-    auto solver = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message());
-    return std::move(solver).value();
+    return test::value_of(make_gpu_solver(context(), model, options));
   }
 
   static void expect_equal_steps(const Model& model, int steps, const GpuOptions& options = {}) {

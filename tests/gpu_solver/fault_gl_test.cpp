@@ -8,6 +8,7 @@
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 #include "support/temporary_directory.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -34,9 +35,8 @@ class FaultySolverGl : public aspic::testing::GlTest {
 
   /// A fresh context, in which no fault has struck yet.
   gl::Context& own() {
-    auto made = gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
-    EXPECT_TRUE(made.ok());
-    own_ = std::move(made).value();
+    own_ = test::value_of(
+        gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()}));
     return *own_;
   }
 

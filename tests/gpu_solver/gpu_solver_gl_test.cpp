@@ -8,6 +8,7 @@
 #include "support/gl_fixture.h"
 #include "support/lattice_bodies.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -17,9 +18,7 @@ class GpuSolverTest : public aspic::testing::GlTest {
   static std::unique_ptr<GpuSolver> solver_for(const Model& model, ForcePath path = ForcePath::gather) {
     GpuOptions options;
     options.force_path = path;
-    auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
-    return std::move(made).value();
+    return test::value_of(make_gpu_solver(context(), model, options));
   }
 };
 
@@ -171,7 +170,7 @@ TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
     GpuOptions options;
     options.force_path = path;
     options.share_springs_of = old.get();
-    auto shared = std::move(make_gpu_solver(context(), stiffer, options)).value();
+    auto shared = test::value_of(make_gpu_solver(context(), stiffer, options));
     EXPECT_EQ(shared->spring_buffers(), old->spring_buffers());
     EXPECT_EQ(shared->bytes(), old->bytes());
     EXPECT_LT(context().bytes_held() - held, shared->bytes());
@@ -190,16 +189,16 @@ TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
   options.share_springs_of = old.get();
   Model implicit = model;
   implicit.simulation.integrator = Integrator::implicit_euler;
-  auto solved = std::move(make_gpu_solver(context(), implicit, options)).value();
+  auto solved = test::value_of(make_gpu_solver(context(), implicit, options));
   EXPECT_EQ(solved->spring_buffers(), old->spring_buffers());
   options.force_path = ForcePath::per_spring;
-  auto other_path = std::move(make_gpu_solver(context(), model, options)).value();
+  auto other_path = test::value_of(make_gpu_solver(context(), model, options));
   EXPECT_NE(other_path->spring_buffers(), old->spring_buffers());
   options.force_path = ForcePath::gather;
   list_springs(stiffer);
   Spring& changed = stiffer.listed_springs[5];
   changed.spring_class = 1 - changed.spring_class;
-  auto other_springs = std::move(make_gpu_solver(context(), stiffer, options)).value();
+  auto other_springs = test::value_of(make_gpu_solver(context(), stiffer, options));
   EXPECT_NE(other_springs->spring_buffers(), old->spring_buffers());
 }
 

@@ -10,6 +10,7 @@
 #include "support/equality_cases.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -63,7 +64,7 @@ TEST_F(InputsOnTheDevice, PinsBeginWithTheNextStep) {
   while (model->inverse_mass[held] != 0.0) ++held;
   auto reference = std::move(make_reference_solver(model, Precision::single)).value();
   auto cpu = std::move(make_cpu_solver(model)).value();
-  auto gpu = std::move(make_gpu_solver(context(), model)).value();
+  auto gpu = test::value_of(make_gpu_solver(context(), model));
   std::vector<std::uint64_t> hashes;
   for (Solver* const solver : {reference.get(), cpu.get(), static_cast<Solver*>(gpu.get())}) {
     SCOPED_TRACE(solver->backend());
@@ -111,7 +112,7 @@ TEST_F(InputsOnTheDevice, AsManyPullsAsThereMayBe) {
       inputs.pulls.push_back({n * 7 % 125, {0.01 * n, 2.0 + 0.003 * n, -0.005 * n}, 10.0 + n, 0.5});
     log.set(0, inputs);
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
-    auto gpu = std::move(make_gpu_solver(context(), model)).value();
+    auto gpu = test::value_of(make_gpu_solver(context(), model));
     EXPECT_EQ(run(*gpu, log, 12), run(*reference, log, 12));
   }
 }

@@ -8,6 +8,7 @@
 #include "gpu_solver/queue_depth.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -22,9 +23,7 @@ class LateGl : public aspic::testing::GlTest {
     GlTest::TearDown();
   }
   static std::unique_ptr<GpuSolver> solver_for(const Model& model) {
-    auto made = make_gpu_solver(context(), model, {});
-    EXPECT_TRUE(made.ok()) << made.error().message();
-    return std::move(*made);
+    return test::value_of(make_gpu_solver(context(), model, {}));
   }
   /// A cube that diverges after some steps.
   static Model diverging() {

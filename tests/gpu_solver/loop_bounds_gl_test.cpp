@@ -23,6 +23,7 @@
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 #include "support/temporary_directory.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -61,9 +62,7 @@ class LoopBounds : public aspic::testing::GlTest {
     GpuOptions options;
     options.force_path = path;
     options.shader_directory = directory.path();
-    auto solver = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message());
-    const auto ran = (*solver)->advance(1);
+    const auto ran = test::value_of(make_gpu_solver(context(), model, options))->advance(1);
     if (ran.ok()) return {};
     EXPECT_EQ(ran.error().code, ErrorCode::no_device);
     return ran.error().message();
@@ -163,7 +162,7 @@ TEST_F(LoopBounds, OfSpringsAtOneParticle) {
       model.simulation.integrator = integrator;
       model.simulation.gravity = {0.0, -9.8, 0.0};
       auto reference = std::move(make_reference_solver(model, Precision::single)).value();
-      auto solver = std::move(make_gpu_solver(context(), model, options)).value();
+      auto solver = test::value_of(make_gpu_solver(context(), model, options));
       ASSERT_FALSE((*reference->advance(3)).divergence.has_value());
       const auto advanced = solver->advance(3);
       ASSERT_TRUE(advanced.ok()) << advanced.error().message();
@@ -171,7 +170,7 @@ TEST_F(LoopBounds, OfSpringsAtOneParticle) {
 
       model = hub(gl::max_rounds + 1);
       model.simulation.integrator = integrator;
-      auto refused = std::move(make_gpu_solver(context(), model, options)).value()->advance(1);
+      auto refused = test::value_of(make_gpu_solver(context(), model, options))->advance(1);
       ASSERT_FALSE(refused.ok());
       EXPECT_THAT(refused.error().message(), HasSubstr("the springs of one particle"));
     }
@@ -195,7 +194,7 @@ TEST_F(LoopBounds, OfTerrains) {
       settings.balls.push_back({0.5, 2.0, {3.0, -0.4, 0.0}, {-1.0, -1.0, 0.0}, {}});
       const Model model = test::build(settings);
       auto reference = std::move(make_reference_solver(model, Precision::single)).value();
-      auto solver = std::move(make_gpu_solver(context(), model)).value();
+      auto solver = test::value_of(make_gpu_solver(context(), model));
       ASSERT_FALSE((*reference->advance(50)).divergence.has_value());
       ASSERT_FALSE((*solver->advance(50)).divergence.has_value());
       EXPECT_EQ(*solver->state(), *reference->state());
@@ -213,7 +212,7 @@ TEST_F(LoopBounds, OfReductions) {
   Model model = test::particles(std::move(positions), velocities);
   model.simulation.integrator = Integrator::implicit_euler;
   auto reference = std::move(make_reference_solver(model, Precision::single)).value();
-  auto solver = std::move(make_gpu_solver(context(), model)).value();
+  auto solver = test::value_of(make_gpu_solver(context(), model));
   ASSERT_FALSE((*reference->advance(2)).divergence.has_value());
   ASSERT_FALSE((*solver->advance(2)).divergence.has_value());
   EXPECT_EQ(*solver->state(), *reference->state());
@@ -262,10 +261,9 @@ TEST_F(LoopBounds, OfTheBoxOfAllParticles) {
   std::array<render_layout::Bounds, LIGHTS> found;
   found.fill({glm::uvec4(0xffffffffu), glm::uvec4(0u)});
   const auto bounds = std::move(gl::Buffer::of(context(), "bounds", found)).value();
-  const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
-  ASSERT_TRUE(programs.ok()) << programs.error().message();
-  ASSERT_EQ(programs->bounds.group_size()[0], group);
-  gl::Pass(programs->bounds,
+  const RenderPrograms programs = RenderPrograms::create(context(), gl::ShaderLibrary());
+  ASSERT_EQ(programs.bounds.get().group_size()[0], group);
+  gl::Pass(programs.bounds,
            {{BINDING_PARTICLES, &state},
             {BINDING_BOUNDS, &bounds},
             {BINDING_FRAME, &frame, gl::BufferKind::uniform}},
@@ -302,11 +300,10 @@ TEST_F(LoopBounds, OfTheForceThatIsDrawn) {
   const DeviceState shown = {.particles = &particles};
   auto buffers = std::move(ModelBuffers::create(context(), model)).value();
   ASSERT_TRUE(buffers.prepare_incident(context(), model, shown).ok());
-  const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
-  ASSERT_TRUE(programs.ok()) << programs.error().message();
+  const RenderPrograms programs = RenderPrograms::create(context(), gl::ShaderLibrary());
   const gl::Buffer frame = frame_of(context(), model.particle_count(), COLOUR_FORCE);
   frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
-  buffers.compute_quantity(*programs, shown);
+  buffers.compute_quantity(programs, shown);
   const auto force = static_cast<double>(buffers.quantity().download_items<float>(1).front());
   // Each addition rounds what the others have come to; the last spring's force and the result take a few
   // more.

@@ -7,6 +7,7 @@
 #include "model/terrain.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -16,9 +17,7 @@ class MovingTerrain : public aspic::testing::GlTest {
   std::unique_ptr<GpuSolver> solver(const Model& model, ForcePath path = ForcePath::automatic) {
     GpuOptions options;
     options.force_path = path;
-    auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
-    return std::move(made).value();
+    return test::value_of(make_gpu_solver(context(), model, options));
   }
   static State reference_after(const Model& model, std::uint64_t steps) {
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();

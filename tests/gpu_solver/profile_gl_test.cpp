@@ -10,6 +10,7 @@
 #include "model/integrator.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -23,9 +24,7 @@ class PassTimes : public aspic::testing::GlTest {
     GpuOptions options;
     options.force_path = path;
     options.ball_search = search;
-    auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
-    return std::move(made).value();
+    return test::value_of(make_gpu_solver(context(), model, options));
   }
 
   static Counts counts_of(const std::vector<gl::PassTime>& times) {

@@ -8,6 +8,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -23,9 +24,7 @@ class PullOnTheDevice : public aspic::testing::GlTest {
   static std::unique_ptr<GpuSolver> solver_for(const Model& model, ForcePath path = ForcePath::gather) {
     GpuOptions options;
     options.force_path = path;
-    auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
-    return std::move(made).value();
+    return test::value_of(make_gpu_solver(context(), model, options));
   }
 
   /// The state at `steps`, with every input given at its step.

@@ -10,6 +10,7 @@
 #include "support/gl_fixture.h"
 #include "support/integrator_names.h"
 #include "support/pile.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -27,9 +28,7 @@ class Touching : public testing::GlTest {
   std::unique_ptr<GpuSolver> gpu(const Model& model, ForcePath path = ForcePath::automatic) {
     GpuOptions options;
     options.force_path = path;
-    auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
-    return std::move(*made);
+    return test::value_of(make_gpu_solver(context(), model, options));
   }
   State by_device(const Model& model, std::uint64_t steps, ForcePath path = ForcePath::automatic) {
     const auto solver = gpu(model, path);

@@ -6,6 +6,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -19,7 +20,7 @@ class Views : public aspic::testing::GlTest {
     solvers_.push_back(std::move(make_reference_solver(model_, Precision::single)).value());
     solvers_.push_back(std::move(make_reference_solver(model_, Precision::double_)).value());
     solvers_.push_back(std::move(make_cpu_solver(model_)).value());
-    auto gpu = std::move(make_gpu_solver(context(), model_)).value();
+    auto gpu = test::value_of(make_gpu_solver(context(), model_));
     gpu->set_late(true);
     solvers_.push_back(std::move(gpu));
   }

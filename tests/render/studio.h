@@ -4,6 +4,7 @@
 #include "render/read_back.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic::test {
 
@@ -11,9 +12,7 @@ class Studio : public testing::GlTest {
  protected:
   void SetUp() override {
     GlTest::SetUp();
-    auto renderer = Renderer::create(context());
-    ASSERT_TRUE(renderer.ok()) << renderer.error().message();
-    renderer_ = std::move(*renderer);
+    renderer_ = test::value_of(Renderer::create(context()));
   }
   void TearDown() override {
     renderer_.reset();

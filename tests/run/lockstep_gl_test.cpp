@@ -19,6 +19,7 @@
 #include "run/window_host.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -39,9 +40,8 @@ ModelSettings cube(int edge, double height = 2.05) {
 class SeveralGpuSolvers : public aspic::testing::GlTest {
  protected:
   static std::shared_ptr<gl::Context> another_context() {
-    auto made = gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
-    EXPECT_TRUE(made.ok()) << made.error().message();
-    return std::move(*made);
+    return test::value_of(
+        gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()}));
   }
   /// A solver in `context`, or in one of its own if that is null.
   template <class AnyModel>
@@ -51,9 +51,7 @@ class SeveralGpuSolvers : public aspic::testing::GlTest {
     auto own = context || !choice->row->needs_context ? nullptr : another_context();
     SolverHost host;
     host.context = own ? own.get() : context;
-    auto made = make_backend(*choice, model, host);
-    EXPECT_TRUE(made.ok()) << variant << ": " << made.error().message();
-    return std::move(*made);
+    return test::value_of(make_backend(*choice, model, host));
   }
   static std::string hash_of(const Backend& backend) {
     const auto state = backend.solver->state();
@@ -245,13 +243,9 @@ TEST_F(SeveralGpuSolvers, ASolverMadeOnAThreadThatEndedIsUsedOnAnother) {
 /// A renderer with the read-back of its pictures, in a context.
 struct Painter {
   Painter(gl::Context& context, const Model& model) {
-    auto made = Renderer::create(context);
-    EXPECT_TRUE(made.ok()) << made.error().message();
-    renderer = std::move(*made);
+    renderer = test::value_of(Renderer::create(context));
     EXPECT_TRUE(renderer->set_model(model).ok());
-    auto pictures = gl::PixelRing::create(context, 64, 48);
-    EXPECT_TRUE(pictures.ok());
-    ring.emplace(std::move(*pictures));
+    ring.emplace(test::value_of(gl::PixelRing::create(context, 64, 48)));
   }
   std::vector<std::byte> picture(const State& state) {
     const auto there = renderer->upload(state);

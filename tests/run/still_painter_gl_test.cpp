@@ -4,6 +4,7 @@
 
 #include "aspic/run.h"
 #include "support/gl_fixture.h"
+#include "support/value_of.h"
 
 namespace aspic {
 namespace {
@@ -31,7 +32,8 @@ constexpr PictureSize size = {160, 90};
 struct Actor {
   explicit Actor(const std::string& name, const std::string& backend_word, const Words& view = {})
       : scene(with_view(load_scene(name).value(), view).value()),
-        backend(make_backend(parse_backend(backend_word).value(), make_model(scene.model).value()).value()) {}
+        backend(test::value_of(
+            make_backend(parse_backend(backend_word).value(), make_model(scene.model).value()))) {}
   void advance(std::uint64_t steps) { EXPECT_TRUE(backend.solver->advance(steps).ok()); }
 
   Scene scene;

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "support/value_of.h"
 
 namespace aspic::testing {
 namespace {
@@ -46,21 +49,20 @@ gl::DeviceChoice test_device() {
 
 void GlTest::SetUpTestSuite() {
   if (process_context()) return;
-  auto made = gl::Context::create_headless({.debug = true, .device = test_device()});
-  ASSERT_TRUE(made.ok()) << made.error().message();
+  auto made = test::value_of(gl::Context::create_headless({.debug = true, .device = test_device()}));
   // A run that is meant for one driver must not pass on another that EGL took instead.
   if (const char* const renderer = std::getenv("ASPIC_TEST_RENDERER")) {
-    ASSERT_THAT((*made)->info().renderer, ::testing::HasSubstr(renderer));
+    ASSERT_THAT(made->info().renderer, ::testing::HasSubstr(renderer));
   }
-  process_context() = std::move(made).value();
+  process_context() = std::move(made);
 }
 
 gl::Context& GlTest::context() {
+  if (!process_context()) throw std::runtime_error("There is no OpenGL context to test with.");
   return *process_context();
 }
 
 void GlTest::SetUp() {
-  ASSERT_TRUE(process_context());
   const Status current = context().make_current();
   ASSERT_TRUE(current.ok()) << current.error().message();
   severe_messages().clear();

@@ -20,7 +20,7 @@ class GlTest : public ::testing::Test {
   void SetUp() override;
   void TearDown() override;
 
-  /// The process's context; legal within a test.
+  /// The process's context; legal within a test, which ends in failure where there is none.
   static gl::Context& context();
 
   /// For tests of refusals: takes the pending GL errors and high-severity messages off the record and returns
