@@ -191,6 +191,9 @@ void Context::inject_fault(Fault fault, std::uint64_t after) {
 }
 
 void Context::take_back_faults() {
+  // A lost device is at work on nothing; this one still is on what came before the loss, which nobody waited
+  // for.
+  if (dead_) glFinish();
   faults_ = {};
   dead_ = lost_ = silent_ = false;
 }

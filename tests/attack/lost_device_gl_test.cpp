@@ -128,7 +128,7 @@ TEST_P(LostDeviceGl, EndsARunThatLooksAfterEachStep) {
         break;
       }
       ASSERT_TRUE(state.ok());
-      EXPECT_EQ(*state, wanted[s]);
+      EXPECT_EQ(*state, wanted[s]) << "step " << s;
     }
     device_->take_back_faults();
   }
