@@ -183,6 +183,14 @@ function(aspic_busy name)
   set_target_properties(${name} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # which are for another level
 endfunction()
 
+# aspic_gl_tests(NAME FILTER): tests of any device, which the GPU kit takes along (scripts/gpu_kit.sh). Their list is
+# gl_tests.txt in the build directory, and the target gl_tests builds them.
+function(aspic_gl_tests name filter)
+  file(RELATIVE_PATH path "${PROJECT_BINARY_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/${name}")
+  set_property(GLOBAL APPEND PROPERTY ASPIC_GL_TESTS "${path} ${filter}")
+  set_property(GLOBAL APPEND PROPERTY ASPIC_GL_PROGRAMS ${name})
+endfunction()
+
 # aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each suite of it a test of ctest's (cmake/AspicSuites.cmake):
 # a process for each case would make a context and compile the shaders each time. EACH_CASE: a process for each case all the
 # same, for cases that take long or want a process of their own. Patterns are those of --gtest_filter: SOFTWARE pattern gives the
@@ -207,10 +215,15 @@ function(aspic_test name)
   if(arg_SOFTWARE)
     list(APPEND labels "software=${arg_SOFTWARE}")
   endif()
+  set(all "")
   if(arg_FULL)
     list(TRANSFORM arg_FULL REPLACE "^[^=]+=" "" OUTPUT_VARIABLE all)
     list(JOIN all ":" all)
     list(APPEND labels "full=${all}" ${arg_FULL})
+  endif()
+  if("aspic_gl_testing" IN_LIST arg_DEPENDS)
+    string(REGEX REPLACE "^:|:$" "" left_out "${arg_SOFTWARE}:${all}")
+    aspic_gl_tests(${name} "*-${left_out}")
   endif()
   set(base "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites")
   list(JOIN properties " " properties)

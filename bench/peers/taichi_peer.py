@@ -1,6 +1,7 @@
-"""The lattice in Taichi on the CPU, as its own examples of cloth do it: every particle looks at its neighbours in the
-grid, at offsets known when the kernel is compiled."""
+"""The lattice in Taichi, as its own examples of cloth do it: every particle looks at its neighbours in the grid, at
+offsets known when the kernel is compiled. ASPIC_PEER_DEVICE is cpu, also if it is unset, or cuda."""
 import math
+import os
 
 from peer import converse, offsets
 
@@ -9,7 +10,8 @@ import taichi as ti
 
 class Peer:
     def __init__(self, lattice):
-        ti.init(arch=ti.cpu, cpu_max_num_threads=lattice.threads, default_fp=ti.f32, log_level=ti.WARN)
+        device = getattr(ti, os.environ.get("ASPIC_PEER_DEVICE", "cpu"))
+        ti.init(arch=device, cpu_max_num_threads=lattice.threads, default_fp=ti.f32, log_level=ti.WARN)
         self.lattice = lattice
         n, h, m = lattice.size, lattice.timestep, lattice.mass
         k, c, g = lattice.stiffness, lattice.damping, lattice.gravity

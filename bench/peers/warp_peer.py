@@ -1,5 +1,5 @@
-"""The lattice in Warp on the CPU, as its own integrators did it: a kernel over the list of springs that adds to the
-forces of both ends, and a kernel that moves the particles."""
+"""The lattice in Warp, as its own integrators did it: a kernel over the list of springs that adds to the forces of both
+ends, and a kernel that moves the particles. ASPIC_PEER_DEVICE is cpu, also if it is unset, or cuda."""
 import os
 
 from peer import converse
@@ -37,11 +37,12 @@ class Peer:
         wp.config.kernel_cache_dir = os.path.join(os.path.dirname(__file__), "../../build/peers/warp")
         wp.init()
         self.lattice = lattice
+        self.device = os.environ.get("ASPIC_PEER_DEVICE", "cpu")
         ends, lengths = lattice.springs()
         self.springs = len(lengths)
 
         def array(values, dtype):
-            return wp.array(values, dtype=dtype, device="cpu")
+            return wp.array(values, dtype=dtype, device=self.device)
 
         self.start = array(lattice.start().astype(numpy.float32), wp.vec3)
         self.x, self.v, self.f = (wp.zeros_like(self.start) for _ in range(3))
@@ -49,10 +50,18 @@ class Peer:
         gravity = wp.vec3(0.0, -lattice.gravity, 0.0)
         self.load()
         self.commands = [
-            wp.launch(spring_forces, dim=self.springs, device="cpu", record_cmd=True,
+            wp.launch(spring_forces, dim=self.springs, device=self.device, record_cmd=True,
                       inputs=[self.x, self.v, self.ends, self.lengths, lattice.stiffness, lattice.damping, self.f]),
-            wp.launch(move, dim=len(self.start), device="cpu", record_cmd=True,
+            wp.launch(move, dim=len(self.start), device=self.device, record_cmd=True,
                       inputs=[self.x, self.v, self.f, gravity, 1.0 / lattice.mass, lattice.timestep])]
+        # On a card a step is one launch, of a graph.
+        self.graph = None
+        if self.device != "cpu":
+            self.step()
+            self.load()
+            with wp.ScopedCapture(device=self.device) as capture:
+                self.step()
+            self.graph = capture.graph
 
     def hello(self):
         return {"name": "warp", "version": wp.__version__, "threads": 1, "integrator": "explicit-euler",
@@ -65,8 +74,15 @@ class Peer:
 
     def advance(self, steps):
         for _ in range(steps):
-            for command in self.commands:
-                command.launch()
+            if self.graph:
+                wp.capture_launch(self.graph)
+            else:
+                self.step()
+        wp.synchronize()
+
+    def step(self):
+        for command in self.commands:
+            command.launch()
 
     def positions(self):
         return self.x.numpy()
