@@ -1,5 +1,5 @@
-// What it costs to read the positions of a million particles: by State, into a caller's array, through the
-// solver's own memory; and a copy of as many bytes, for comparison.
+// Time to read the state of a million particles: as a new State, into a State that is used again, into arrays
+// of the caller, in the solver's own memory; and to load it. A copy of 12 MB for comparison.
 //   build/release/bench/view_figures --benchmark_repetitions=11 --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
 
@@ -11,6 +11,8 @@
 #include "checked.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
+#include "gpu/context.h"
+#include "gpu_solver/gpu_solver.h"
 
 namespace {
 
@@ -31,6 +33,19 @@ Solver& cpu() {
 Solver& reference() {
   static const std::unique_ptr<Solver> made = checked(make_reference_solver(model(), Precision::single));
   return *made;
+}
+
+Solver& gpu() {
+  static const auto context = checked(gl::Context::create_headless());
+  static const std::unique_ptr<GpuSolver> made = checked(make_gpu_solver(*context, model()));
+  return *made;
+}
+
+/// ns a particle, as the column `particle`.
+void count_particles(benchmark::State& state) {
+  state.counters["particle"] =
+      benchmark::Counter(static_cast<double>(model()->particle_count()) * 1e-9,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void copy(benchmark::State& state) {
@@ -54,10 +69,27 @@ void into(benchmark::State& state, Solver& solver, std::ptrdiff_t stride, std::p
     benchmark::DoNotOptimize(to.data());
     benchmark::ClobberMemory();
   }
+  count_particles(state);
 }
 
 void whole(benchmark::State& state, Solver& solver) {
   for (auto _ : state) benchmark::DoNotOptimize(checked(solver.state()));
+  count_particles(state);
+}
+
+void again(benchmark::State& state, Solver& solver) {
+  State kept = checked(solver.state());
+  for (auto _ : state) {
+    kept.step = checked(solver.read_into(view_of(kept)));
+    benchmark::ClobberMemory();
+  }
+  count_particles(state);
+}
+
+void load(benchmark::State& state, Solver& solver) {
+  const State kept = checked(solver.state());
+  for (auto _ : state) check(solver.load(kept));
+  count_particles(state);
 }
 
 void where_it_lies(benchmark::State& state, Solver& solver) {
@@ -78,6 +110,14 @@ int main(int argc, char** argv) {
   add("cpu/rows of doubles", [](benchmark::State& s) { into<double>(s, cpu(), 3, 1); });
   add("cpu/where it lies", [](benchmark::State& s) { where_it_lies(s, cpu()); });
   add("cpu/State", [](benchmark::State& s) { whole(s, cpu()); });
+  add("cpu/State again", [](benchmark::State& s) { again(s, cpu()); });
+  add("cpu/load", [](benchmark::State& s) { load(s, cpu()); });
+  add("gpu/three arrays of floats", [=](benchmark::State& s) { into<float>(s, gpu(), 1, count); });
+  add("gpu/rows of floats", [](benchmark::State& s) { into<float>(s, gpu(), 3, 1); });
+  add("gpu/rows of doubles", [](benchmark::State& s) { into<double>(s, gpu(), 3, 1); });
+  add("gpu/State", [](benchmark::State& s) { whole(s, gpu()); });
+  add("gpu/State again", [](benchmark::State& s) { again(s, gpu()); });
+  add("gpu/load", [](benchmark::State& s) { load(s, gpu()); });
   add("reference/rows of floats", [](benchmark::State& s) { into<float>(s, reference(), 3, 1); });
   add("reference/State", [](benchmark::State& s) { whole(s, reference()); });
   benchmark::RunSpecifiedBenchmarks();

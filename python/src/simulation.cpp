@@ -86,17 +86,29 @@ std::uint64_t Simulation::read_into(const StateView& view) {
   return alone([&] { return take(backend_.solver->read_into(view)); });
 }
 
+void Simulation::read_alone(State& into) {
+  Solver& solver = *backend_.solver;
+  if (into.position.empty() && into.ball_position.empty())
+    into = take(solver.state());
+  else
+    into.step = take(solver.read_into(view_of(into)));
+}
+
+const State& Simulation::state_alone() {
+  read_alone(state_);
+  return state_;
+}
+
 Measures Simulation::measures() {
-  return alone([&] { return measure(*model_, take(backend_.solver->state()), backend_.solver->inputs()); });
+  return alone([&] { return measure(*model_, state_alone(), backend_.solver->inputs()); });
 }
 
 std::optional<double> Simulation::add_work(ActuatorWork& work) {
-  return alone([&] { return work.add(*model_, take(backend_.solver->state()), backend_.solver->inputs()); });
+  return alone([&] { return work.add(*model_, state_alone(), backend_.solver->inputs()); });
 }
 
 StateQuantities Simulation::quantities() {
-  return alone(
-      [&] { return quantities_of(*model_, take(backend_.solver->state()), backend_.solver->inputs()); });
+  return alone([&] { return quantities_of(*model_, state_alone(), backend_.solver->inputs()); });
 }
 
 void Simulation::load(const State& state, const InputLog* log) {
@@ -138,7 +150,7 @@ void Simulation::check_stopped(bool stopped) const {
 
 void Simulation::look_alone(std::uint64_t before) {
   if (step_ < overlaps_->next_step(before)) return;
-  std::string found = overlaps_->look(take(backend_.solver->state()));
+  std::string found = overlaps_->look(state_alone());
   if (!found.empty()) warnings_.emplace_back("overlap", std::move(found));
 }
 
@@ -175,15 +187,15 @@ Advance Simulation::advance(std::uint64_t steps) {
 
 std::optional<std::uint64_t> Simulation::compare(Simulation& other, std::uint64_t steps) {
   auto looked = Clock::now();
+  State states[2];
   for (std::uint64_t i = 0; i < steps; ++i) {
     bool diverged = false;
     std::uint64_t step = 0;
-    State states[2];
     Simulation* const both[2] = {this, &other};
     for (std::size_t s = 0; s < 2; ++s) {
       both[s]->alone([&] {
         diverged = both[s]->advance_alone(1).divergence.has_value() || diverged;
-        states[s] = take(both[s]->backend_.solver->state());
+        both[s]->read_alone(states[s]);
         step = std::max(step, states[s].step);
       });
     }
@@ -251,12 +263,12 @@ Result<std::optional<Divergence>> Simulation::page_alone(const PageWish& wish, b
   const auto visit = [&]() -> Status {
     if (begun && step_ != last && files.next_step(step_ - 1) != step_) return {};
     begun = true;
-    const State state = take(backend_.solver->state());
+    const State& state = state_alone();
     return files.take({.model = *model_, .state = state, .inputs = &backend_.solver->inputs()});
   };
   const auto divergence = take(advance_visiting(
       last, [&] { return files.next_step(step_); }, visit, stopped));
-  const State state = take(backend_.solver->state());
+  const State& state = state_alone();
   check(files.finish({.model = *model_,
                       .state = state,
                       .divergence = divergence ? &*divergence : nullptr,
@@ -357,7 +369,7 @@ RunFacts Simulation::facts_alone() const {
 void Simulation::write_file(const std::string& option, const std::string& path, bool overwrite) {
   auto files = take(RunFiles::open({{option, path, {}}}, {}, facts_alone(),
                                    overwrite ? Overwrite::allow : Overwrite::refuse));
-  const State state = take(backend_.solver->state());
+  const State& state = state_alone();
   const Sample sample = {.model = *model_, .state = state, .inputs = &backend_.solver->inputs()};
   check(files.take(sample));
   check(files.finish(sample));

@@ -90,7 +90,7 @@ class Simulation {
   /// A state with what belongs to it, for f(model, state, inputs), without the GIL.
   template <class F>
   void show(const F& f) {
-    alone([&] { f(model_, take(backend_.solver->state()), backend_.solver->inputs()); });
+    alone([&] { f(model_, state_alone(), backend_.solver->inputs()); });
   }
 
   /// The step that failed ends it, and stop().
@@ -128,6 +128,10 @@ class Simulation {
   void end_view() { --views_; }
 
  private:
+  /// The current state into one that is empty or was read by this before.
+  void read_alone(State& into);
+  /// The current state, until the next call of it.
+  const State& state_alone();
   void write_file(const std::string& option, const std::string& path, bool overwrite);
   void refuse_while_viewed() const;
   RunFacts facts_alone() const;
@@ -158,6 +162,7 @@ class Simulation {
   std::atomic<bool> stop_ = false;
   bool solves_told_ = false;
   std::atomic<int> views_ = 0;
+  State state_;  // the latest that was measured or written; its memory is used again
   std::unique_ptr<StillPainter> painter_;  // after backend_, which it draws from
 };
 

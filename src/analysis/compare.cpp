@@ -1,5 +1,6 @@
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <tuple>
 #include <vector>
 
@@ -22,6 +23,7 @@ std::uint64_t distance(Bits a, Bits b) {
 
 QuantityDifference compare(const std::vector<Vec3>& a, const std::vector<Vec3>& b, bool in_double) {
   QuantityDifference worst;
+  if (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0) return worst;
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       const double x = a[i][axis], y = b[i][axis];

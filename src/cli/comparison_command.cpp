@@ -12,6 +12,7 @@
 #include "cli/run_summary.h"
 #include "io/program.h"
 #include "model/inputs.h"
+#include "model/reading.h"
 #include "page/page_writer.h"
 #include "playback/common_clock.h"
 #include "run/comparison.h"
@@ -194,7 +195,7 @@ class ComparisonPage {
     for (std::size_t i = 0; i < variants.size(); ++i) {
       const HeadlessRun& headless = *variants[i]->headless;
       if (!states_[i].position.empty() && states_[i].step == headless.step()) continue;
-      ASPIC_TRY(states_[i], headless.solver().state());
+      ASPIC_CHECK(read_state(headless.solver(), states_[i]));
     }
     return {};
   }

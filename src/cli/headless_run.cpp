@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <utility>
 
 #include "aspic/analysis.h"
 #include "base/stopwatch.h"
 #include "io/console.h"
+#include "model/reading.h"
 
 namespace aspic::cli {
 namespace {
@@ -36,17 +38,18 @@ Status lost_error(const std::vector<Error>& failures, bool others) {
   return Error{failures.front().code, text};
 }
 
-// A State takes as much memory as all of a solver's: one is held where it is looked at, and none while
-// steps are made.
+// A State takes as much memory as all of a solver's: one is held while there are states to look at, and none
+// while only steps are made.
 Status HeadlessRun::sample() {
-  ASPIC_TRY(const auto state, solver_.state());
+  ASPIC_CHECK(read_state(solver_, state_));
   ASPIC_CHECK(files_.take({.model = solver_.model(),
-                           .state = state,
+                           .state = state_,
                            .solves = solver_.solve_statistics().value_or(SolveStatistics{}),
                            .inputs = &solver_.inputs()}));
   const std::vector<Error>& failures = files_.failures();
   if (!failures.empty() && !files_.any_left() && !others_) return failures.front();
   losses_.tell(failures);
+  if (files_.next_step(step_) == std::numeric_limits<std::uint64_t>::max() && !watch_) state_ = {};
   return {};
 }
 
@@ -73,8 +76,8 @@ Status HeadlessRun::advance_to(std::uint64_t step, const InterruptGuard& interru
     if (divergence_) break;
     if (step_ == wanted) ASPIC_CHECK(sample());
     if (watch_ && step_ == watched) {
-      ASPIC_TRY(const auto state, solver_.state());
-      look(state);
+      if (step_ != wanted) ASPIC_CHECK(read_state(solver_, state_));
+      look(state_);
     }
     batch_.took(count, seconds_since(before));
     if (did) did(step_);
@@ -90,7 +93,8 @@ Result<Outcome> HeadlessRun::outcome(std::uint64_t last_step) {
   outcome.last_step = last_step;
   outcome.divergence = divergence_;
   outcome.interrupted = interrupted_;
-  ASPIC_TRY(outcome.state, solver_.state());  // the time below is that of finished work
+  ASPIC_CHECK(read_state(solver_, state_));  // the time below is that of finished work
+  outcome.state = std::move(state_);
   outcome.wall_seconds = seconds_ + seconds_since(before);
   if (const auto bad = first_not_finite(measure(solver_.model(), outcome.state, solver_.inputs()))) {
     return fail(ErrorCode::diverged, "{} of step {} is not a finite number; the outputs were not completed.",

@@ -128,6 +128,7 @@ class HeadlessRun {
   Losses losses_;
   OverlapWatch* watch_ = nullptr;
   std::string watched_;
+  State state_;  // the latest that was looked at
 };
 
 }  // namespace aspic::cli

@@ -17,6 +17,7 @@
 #include "cpu_reference/divergence.h"
 #include "model/counts.h"
 #include "model/pull.h"
+#include "model/reading.h"
 #include "model/springs.h"
 
 namespace aspic {
@@ -144,18 +145,9 @@ Strided<T> strided(AnyArray& array, std::size_t count) {
   return {array[0].data(), count, 1, array[1].data() - array[0].data()};
 }
 
-/// Part of vectors; nothing of none.
 template <class AnyVectors>
 AnyVectors part_of(const AnyVectors& vectors, Range range) {
-  return std::visit(
-      [&](auto of) -> AnyVectors {
-        if constexpr (!std::is_same_v<decltype(of), std::monostate>) {
-          of.data += static_cast<std::ptrdiff_t>(range.first) * of.stride;
-          of.count = range.count;
-        }
-        return of;
-      },
-      vectors);
+  return aspic::part_of(vectors, range.first, range.count);
 }
 
 /// Calls task(range) for all particles, on all threads: memory is as fast as several of them together.

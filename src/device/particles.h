@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "aspic/solver.h"
 #include "aspic/state_view.h"
 #include "device/layout.h"
 #include "model/model.h"
@@ -26,8 +27,14 @@ inline std::vector<layout::Ball> packed_balls(const Model& model, const State& s
   return packed_balls(model, view_of(state), state.step);
 }
 
-/// Writes the fields of particles, or of balls, that the view has places for.
-void unpack(std::span<const layout::Particle> particles, const StateView& view);
+/// Reads a solver's state as packed_particles() and packed_balls() have it, without a State in between, and
+/// returns its step. The spans have the model's sizes. Errors: those of Solver::read_into().
+Result<std::uint64_t> read_packed(Solver& solver, std::span<layout::Particle> particles,
+                                  std::span<layout::Ball> balls);
+
+/// Writes the fields of particles, the first of which is number `first` of the view, or of balls, that the
+/// view has places for.
+void unpack(std::span<const layout::Particle> particles, const StateView& view, std::size_t first = 0);
 void unpack(std::span<const layout::Ball> balls, const StateView& view);
 
 }  // namespace aspic

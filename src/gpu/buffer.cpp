@@ -74,16 +74,35 @@ void Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {
   glBufferSubData(target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
 }
 
+namespace {
+
+/// One part is read while the next ones are copied. `take`: offset of the part in `bytes`, its size.
+template <class Take>
+void for_each_part(const Buffer& source, ReadRing& ring, std::uint64_t offset, std::uint64_t bytes,
+                   const Take& take) {
+  const auto part = [&](std::uint64_t at) { return std::min(bytes - at, read_part_bytes); };
+  for (std::uint64_t at = 0, asked = 0; at < bytes; at += part(at)) {
+    for (; asked < bytes && !ring.full(); asked += part(asked))
+      ring.submit(source, offset + asked, part(asked));
+    take(at, part(at));
+  }
+}
+
+}  // namespace
+
 void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
   assert(offset <= bytes() && data.size() <= bytes() - offset);
-  // One part is read while the next ones are copied.
   ReadRing& ring = held_->reads();
-  const auto part = [&](std::uint64_t at) { return std::min(data.size() - at, read_part_bytes); };
-  for (std::uint64_t at = 0, asked = 0; at < data.size(); at += part(at)) {
-    for (; asked < data.size() && !ring.full(); asked += part(asked))
-      ring.submit(*this, offset + asked, part(asked));
-    ring.take(data.subspan(at, part(at)));
-  }
+  for_each_part(*this, ring, offset, data.size(),
+                [&](std::uint64_t at, std::uint64_t size) { ring.take(data.subspan(at, size)); });
+}
+
+void Buffer::read_parts(std::uint64_t bytes, const ReadPart& read) const {
+  assert(bytes <= this->bytes());
+  ReadRing& ring = held_->reads();
+  for_each_part(*this, ring, 0, bytes, [&](std::uint64_t at, std::uint64_t size) {
+    ring.take(size, [&](std::span<const std::byte> part) { read(part, at); });
+  });
 }
 
 void Buffer::bind(BufferKind kind, std::uint32_t binding, std::uint64_t offset, std::uint64_t bytes) const {

@@ -2,6 +2,7 @@
 // A block of device memory for shader storage or uniform blocks.
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <ranges>
 #include <span>
@@ -56,6 +57,11 @@ class Buffer {
   /// Reads from byte `offset` on, waiting for the device. A pass's output is visible only if that pass, or
   /// one after it, named ReadBy::read_back.
   void download(std::span<std::byte> data, std::uint64_t offset = 0) const;
+  /// Calls `read` with the first `bytes` part by part, in their order and where they lie, and with the offset
+  /// of each: what is read is copied once. Parts are multiples of 64 bytes but for the last. Parts that a
+  /// lost device does not give are left out, and Context::check() says so.
+  using ReadPart = std::function<void(std::span<const std::byte> part, std::uint64_t offset)>;
+  void read_parts(std::uint64_t bytes, const ReadPart& read) const;
   /// Sets every byte to zero, on the device.
   void clear();
 

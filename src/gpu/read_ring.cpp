@@ -42,18 +42,24 @@ bool ReadRing::ready() {
 }
 
 void ReadRing::take(std::span<std::byte> data) {
+  const auto copy = [&](std::span<const std::byte> arrived) { std::ranges::copy(arrived, data.begin()); };
+  // What a lost device answers is anything; this is the least likely to pass for a result.
+  if (!take(data.size(), copy)) std::ranges::fill(data, std::byte{0xff});
+}
+
+bool ReadRing::take(std::uint64_t bytes, const std::function<void(std::span<const std::byte>)>& read) {
   assert(pending_ > 0);
   const std::size_t slot = first_;
   first_ = (first_ + 1) % capacity;
   --pending_;
   const Fence arrived = std::move(fences_[slot]);
-  if (context_->dead_ || !wait_for(*context_, arrived)) {
-    // What a lost device answers is anything; this is the least likely to pass for a result.
-    std::ranges::fill(data, std::byte{0xff});
-    return;
-  }
+  if (context_->dead_ || !wait_for(*context_, arrived)) return false;
   glBindBuffer(drain_target, buffers_[slot].id());
-  glGetBufferSubData(drain_target, 0, static_cast<GLsizeiptr>(data.size()), data.data());
+  const auto* const data = static_cast<const std::byte*>(
+      glMapBufferRange(drain_target, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT));
+  if (!data) return false;
+  read({data, bytes});
+  return glUnmapBuffer(drain_target) == GL_TRUE;
 }
 
 void ReadRing::forget() {

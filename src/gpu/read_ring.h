@@ -2,6 +2,7 @@
 // Small copies of buffers on their way back from the device, several at once.
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,9 @@ class ReadRing {
   /// The oldest copy, of data.size() bytes at most; waits for it. Legal while pending() > 0. Of a lost
   /// device, all bits are set, and Context::check() says what happened.
   void take(std::span<std::byte> data);
+  /// Calls `read` with the first `bytes` of the oldest copy, where they lie, and waits for it. Legal while
+  /// pending() > 0. False: the device is lost, and nothing was called.
+  bool take(std::uint64_t bytes, const std::function<void(std::span<const std::byte>)>& read);
   /// Drops all copies under way.
   void forget();
 

@@ -196,8 +196,12 @@ Result<std::uint64_t> DeviceSolver::give_state(const StateView& view) {
 void DeviceSolver::read(const StateView& view) const {
   const auto wanted = [&](std::size_t field) { return !std::holds_alternative<std::monostate>(view[field]); };
   if (wanted(0) || wanted(1)) {
-    const auto particles = states_[current_].download_items<layout::Particle>(model_->particle_count());
-    unpack(particles, view);
+    constexpr std::size_t each = sizeof(layout::Particle);
+    states_[current_].read_parts(
+        model_->particle_count() * each, [&](std::span<const std::byte> part, std::uint64_t offset) {
+          unpack({reinterpret_cast<const layout::Particle*>(part.data()), part.size() / each}, view,
+                 offset / each);
+        });
   }
   if (wanted(2) || wanted(3) || wanted(4)) balls_.read(view, ball_slot_);
 }

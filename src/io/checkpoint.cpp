@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -32,12 +33,16 @@ void append_text(std::string& out, std::string_view text) {
   out += text;
 }
 
-void append_number(std::string& out, double value, Precision precision) {
-  if (precision == Precision::single) {
-    append(out, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
-  } else {
-    append(out, std::bit_cast<std::uint64_t>(value), 8);
+/// Three numbers, little-endian.
+template <class T, class Bits>
+void append_vector(std::string& out, const Vec3& v) {
+  std::array<char, 3 * sizeof(T)> bytes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Bits bits = std::bit_cast<Bits>(static_cast<T>(v[static_cast<int>(axis)]));
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+      bytes[axis * sizeof(T) + i] = static_cast<char>(static_cast<unsigned char>(bits >> (8 * i)));
   }
+  out.append(bytes.data(), bytes.size());
 }
 
 /// Reads little-endian values; past the end it gives zeros and remembers the failure.
@@ -104,8 +109,13 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
   }
   append(out, state.position.size(), 8);
   append(out, state.ball_position.size(), 8);
+  const bool single = state.precision == Precision::single;
+  std::size_t numbers = 0;
+  for (const StateCarrier carrier : {StateCarrier::particle, StateCarrier::ball})
+    numbers += count_of(state, carrier) * numbers_of(carrier);
+  out.reserve(out.size() + numbers * (single ? sizeof(float) : sizeof(double)) + 8);
   for_each_vector(state, [&](const Vec3& v) {
-    for (int axis = 0; axis < 3; ++axis) append_number(out, v[axis], state.precision);
+    single ? append_vector<float, std::uint32_t>(out, v) : append_vector<double, std::uint64_t>(out, v);
   });
   append(out, checksum(out), 8);
   return out;

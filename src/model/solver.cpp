@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "model/counts.h"
 #include "model/inputs.h"
+#include "model/reading.h"
 
 namespace aspic {
 
@@ -35,10 +36,15 @@ Status Solver::load(const ConstStateView& view, std::uint64_t step) {
 
 Result<State> Solver::state() {
   State state;
-  state.precision = precision();
-  resize(state, model().particle_count(), model().ball_count());
-  ASPIC_TRY(state.step, give_state(view_of(state)));
+  ASPIC_CHECK(read_state(*this, state));
   return state;
+}
+
+Status read_state(Solver& solver, State& into) {
+  into.precision = solver.precision();
+  resize(into, solver.model().particle_count(), solver.model().ball_count());
+  ASPIC_TRY(into.step, solver.read_into(view_of(into)));
+  return {};
 }
 
 Result<std::uint64_t> Solver::read_into(const StateView& view) {

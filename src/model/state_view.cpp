@@ -47,6 +47,17 @@ void copy_strided(const Strided<const From>& from, const Strided<To>& to) {
     }
     return;
   }
+  const From* f = from.data;
+  To* t = to.data;
+  if (from.component == 1 && to.component == 1) {
+    for (std::size_t i = 0; i < from.count; ++i, f += from.stride, t += to.stride) {
+      const From x = f[0], y = f[1], z = f[2];
+      t[0] = converted<To>(x);
+      t[1] = converted<To>(y);
+      t[2] = converted<To>(z);
+    }
+    return;
+  }
   for (std::size_t i = 0; i < from.count; ++i)
     for (std::size_t c = 0; c < 3; ++c) to.at(i, c) = converted<To>(from.at(i, c));
 }

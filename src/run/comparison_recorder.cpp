@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "model/reading.h"
 #include "render/camera.h"
 #include "run/arrows.h"
+#include "run/shown_run.h"
 #include "run/window_host.h"
 
 namespace aspic {
@@ -40,8 +42,8 @@ Status ComparisonRecorder::add(const std::vector<std::uint64_t>& steps,
     Part& part = parts_[i];
     ASPIC_CHECK(take_state(part, steps[i]));
     const Backend& backend = *part.run.backend;
-    const GpuSolver* const gpu = film_->wants_copies() ? nullptr : gpu_of(backend);
-    states.push_back(gpu ? PaintedState{nullptr, gpu->device_state()} : PaintedState{&part.copy, {}});
+    const GpuSolver* const gpu = gpu_of(backend);
+    states.push_back({backend.solver.get(), gpu ? gpu->device_state() : DeviceState()});
     all.push_back(shown(part, divergences[i]));
   }
   return film_->add(states, std::move(all), 1);
@@ -51,10 +53,7 @@ Status ComparisonRecorder::add(const std::vector<std::uint64_t>& steps,
 Status ComparisonRecorder::take_state(Part& part, std::uint64_t step) {
   if (part.step == step) return {};
   const Backend& backend = *part.run.backend;
-  if (!gpu_of(backend) || film_->wants_copies() || part.following.any() ||
-      part.run.scene->view.arrows.any()) {
-    ASPIC_TRY(part.copy, backend.solver->state());
-  }
+  if (needs_copy(*part.run.scene, part.following)) ASPIC_CHECK(read_state(*backend.solver, part.copy));
   part.step = step;
   return {};
 }

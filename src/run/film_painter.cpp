@@ -45,9 +45,9 @@ Result<PicturePainter*> FilmPainter::painter() {
 }
 
 Result<DeviceState> FilmPainter::uploaded(std::size_t run, const PaintedState& state) {
-  if (!state.copy) return state.there;
+  if (state.there.particles) return state.there;
   ASPIC_TRY(PicturePainter* const painter, this->painter());
-  return painter->renderer(run).upload(*state.copy);
+  return upload(painter->renderer(run), *state.solver);
 }
 
 FrameTimes FilmPainter::times() const {
@@ -75,7 +75,7 @@ Status FilmPainter::add(const std::vector<PaintedState>& states, std::vector<Sho
   // Nothing but an error completes the film before its end.
   if (recording_->completed()) return recording_->result();
   ASPIC_CHECK(turn_balls(states, shown));
-  if (wants_copies()) {
+  if (drawers_ && drawers_->count() > 0) {
     ASPIC_TRY(const bool asked, ask(states, shown, copies));
     if (asked) return {};
   }
@@ -109,10 +109,9 @@ Result<bool> FilmPainter::ask(const std::vector<PaintedState>& states, std::vect
   }
   DrawerRequest request = {place->slot, {}, std::move(shown)};
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    const State& state = *states[i].copy;
-    request.steps.push_back(state.step);
-    std::ranges::copy(packed_particles(*runs_[i].model, state), drawers_->particles(*place, i).begin());
-    std::ranges::copy(packed_balls(*runs_[i].model, state), drawers_->balls(*place, i).begin());
+    ASPIC_TRY(const std::uint64_t step,
+              read_packed(*states[i].solver, drawers_->particles(*place, i), drawers_->balls(*place, i)));
+    request.steps.push_back(step);
   }
   drawers_->ask(*place, request);
   asked_.push_back({*place, std::move(request), copies});

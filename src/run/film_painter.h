@@ -16,8 +16,8 @@ namespace aspic {
 
 /// A run's state on its way into a picture.
 struct PaintedState {
-  const State* copy = nullptr;  ///< where FilmPainter::wants_copies() asks for it, or there is no other
-  DeviceState there;            ///< where the state lies on the device, if there is no copy
+  Solver* solver = nullptr;  ///< that is at the state
+  DeviceState there = {};    ///< where the state lies on the device; without particles: in memory
 };
 
 /// Draws pictures and hands them to a recording, in their order. On a software rasteriser processes draw them
@@ -33,8 +33,6 @@ class FilmPainter {
   FilmPainter(const FilmPainter&) = delete;
   FilmPainter& operator=(const FilmPainter&) = delete;
 
-  /// Whether add() needs copies of the states.
-  bool wants_copies() const { return drawers_ && drawers_->count() > 0; }
   /// Adds a picture of the runs' states, `copies` ≥ 1 times; they may change afterwards. Errors: those of
   /// drawing; once all outputs are lost, the encoder's.
   Status add(const std::vector<PaintedState>& states, std::vector<ShownRun> shown, std::uint64_t copies);

@@ -1,12 +1,19 @@
 #include "run/lockstep.h"
 
 #include <algorithm>
+#include <cstring>
+
+#include "model/reading.h"
 
 namespace aspic {
 namespace {
 
 bool same_bits(const State& a, const State& b) {
-  return state_hash(a) == state_hash(b);
+  return std::ranges::all_of(state_fields, [&](const StateField& field) {
+    const auto &x = a.*field.vectors, &y = b.*field.vectors;
+    return x.size() == y.size() &&
+           (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)) == 0);
+  });
 }
 
 Error one_state(const Solver& first, const Solver& second) {
@@ -41,19 +48,23 @@ Result<LockstepResult> compare_in_lockstep(Solver& first, Solver& second, std::u
   LockstepResult result;
   if (&first == &second) return one_state(first, second);
   bool apart = false;
+  State a, b;
+  const auto ended = [&] {
+    result.hash = {state_hash_text(a), state_hash_text(b)};
+    return std::move(result);
+  };
   for (std::uint64_t step = 0;; ++step) {
-    ASPIC_TRY(const auto a, first.state());
-    ASPIC_TRY(const auto b, second.state());
+    ASPIC_CHECK(read_state(first, a));
+    ASPIC_CHECK(read_state(second, b));
     ASPIC_TRY(const auto difference, compare_states(a, b));
     // States of two precisions with equal single-precision values still differ where a number does.
     if (!result.first_difference && (!difference.identical() || difference.largest_absolute() > 0.0))
       result.first_difference = step;
     for (std::size_t i = 0; i < result.worst.size(); ++i)
       result.worst[i].take(difference.*compared_quantities[i], step);
-    result.hash = {state_hash_text(a), state_hash_text(b)};
     result.steps = step;
     result.interrupted = !go_on(step);
-    if (step == steps || result.interrupted) return result;
+    if (step == steps || result.interrupted) return ended();
 
     for (Solver* const solver : {&first, &second}) ASPIC_CHECK(solver->set_inputs(inputs.at(a.step)));
     ASPIC_TRY(const Advance one, first.advance(1));
@@ -66,7 +77,7 @@ Result<LockstepResult> compare_in_lockstep(Solver& first, Solver& second, std::u
     }
     ASPIC_TRY(const Advance other, second.advance(1));
     result.divergence[1] = other.divergence;
-    if (result.divergence[0] || result.divergence[1]) return result;
+    if (result.divergence[0] || result.divergence[1]) return ended();
   }
 }
 

@@ -4,9 +4,17 @@
 #include <cassert>
 #include <utility>
 
+#include "device/particles.h"
 #include "gpu/current.h"
 
 namespace aspic {
+
+Result<DeviceState> upload(Renderer& renderer, Solver& solver) {
+  std::vector<layout::Particle> particles(solver.model().particle_count());
+  std::vector<layout::Ball> balls(solver.model().ball_count());
+  ASPIC_TRY(const std::uint64_t step, read_packed(solver, particles, balls));
+  return renderer.upload(std::move(particles), std::move(balls), step);
+}
 
 Result<std::unique_ptr<PicturePainter>> PicturePainter::create(gl::Context& context, const PictureSize& size,
                                                                const std::vector<PaintedRun>& runs) {

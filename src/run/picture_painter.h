@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "aspic/scene.h"
+#include "aspic/solver.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "io/film_format.h"
@@ -35,6 +36,10 @@ struct ShownRun {
   std::vector<BallTurn> ball_turns;  ///< as PictureOptions::ball_turns
   std::vector<double> channels;      ///< as PictureOptions::channels
 };
+
+/// Brings the state of a solver that works in memory to the device. Errors: those of Solver::read_into() and
+/// Renderer::upload().
+Result<DeviceState> upload(Renderer& renderer, Solver& solver);
 
 /// Draws pictures of one size, which one to most_compared runs share. The context must outlive it; every call
 /// enters it (gpu/current.h).

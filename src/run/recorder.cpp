@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "io/frame_schedule.h"
+#include "model/reading.h"
 #include "run/film_painter.h"
 #include "run/run_files.h"
 #include "run/shown_run.h"
@@ -55,6 +56,7 @@ struct Recorder::Parts {
   double simulate_seconds = 0.0;
   std::shared_ptr<gl::Context> own_context = nullptr;
   std::unique_ptr<FilmPainter> film = nullptr;
+  State copy = {};  // where the view needs one
 };
 
 Recorder::Recorder(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -116,17 +118,11 @@ Status Recorder::reach(Solver& solver, std::uint64_t step) {
 
 Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) {
   const GpuSolver* const gpu = gpu_of(parts_->backend);
-  State copy;
-  PaintedState state;
-  if (!gpu || parts_->film->wants_copies() || needs_copy(parts_->scene, parts_->following)) {
-    ASPIC_TRY(copy, solver.state());
-  }
-  if (gpu && !parts_->film->wants_copies())
-    state.there = gpu->device_state();
-  else
-    state.copy = &copy;
+  State& copy = parts_->copy;
+  if (needs_copy(parts_->scene, parts_->following)) ASPIC_CHECK(read_state(solver, copy));
   ShownRun shown = shown_run(parts_->scene, parts_->following, solver, step, copy,
                              {parts_->output.size, parts_->output.text});
+  const PaintedState state = {&solver, gpu ? gpu->device_state() : DeviceState()};
   ASPIC_CHECK(parts_->film->add({state}, {std::move(shown)}, copies));
   parts_->last_shown = step;
   return {};

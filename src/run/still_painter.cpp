@@ -2,6 +2,7 @@
 
 #include "base/result.h"
 #include "gpu/pixel_ring.h"
+#include "model/reading.h"
 #include "run/shown_run.h"
 #include "run/window_host.h"
 
@@ -41,14 +42,12 @@ Result<std::vector<std::byte>> StillPainter::draw(const ViewSettings& view, cons
   const Following following(p.scene, solver.model(), solver.precision());
   const GpuSolver* const gpu = gpu_of(p.backend);
   State copy;
-  if (!gpu || needs_copy(p.scene, following)) {
-    ASPIC_TRY(copy, solver.state());
-  }
+  if (needs_copy(p.scene, following)) ASPIC_CHECK(read_state(solver, copy));
   DeviceState there;
   if (gpu) {
     there = gpu->device_state();
   } else {
-    ASPIC_TRY(there, p.painter->renderer(0).upload(copy));
+    ASPIC_TRY(there, upload(p.painter->renderer(0), solver));
   }
   ShownRun shown = shown_run(p.scene, following, solver, there.step, copy, {size, text});
   shown.ball_turns.assign(solver.model().ball_count(), BallTurn{0.0f, 0.0f, 0.0f, 1.0f});

@@ -1,12 +1,35 @@
 // States go in and out of every backend through views, with the same bits as by State.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+#include <span>
+
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
+#include "device/particles.h"
 #include "gpu_solver/gpu_solver.h"
+#include "model/reading.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 #include "support/value_of.h"
+
+namespace {
+thread_local std::size_t largest_allocation = 0;  // [bytes]
+}  // namespace
+
+void* operator new(std::size_t bytes) {
+  largest_allocation = std::max(largest_allocation, bytes);
+  if (void* const made = std::malloc(bytes)) return made;
+  throw std::bad_alloc();
+}
+void operator delete(void* made) noexcept {
+  std::free(made);
+}
+void operator delete(void* made, std::size_t) noexcept {
+  std::free(made);
+}
 
 namespace aspic {
 namespace {
@@ -57,6 +80,43 @@ TEST_F(Views, ReadWhatStateHas) {
     EXPECT_EQ(spin[3], static_cast<float>(state.ball_angular_velocity[1].x));
     balls[field_number("position")] = Strided<float>{spin, 2};
     EXPECT_EQ(solver->read_into(balls).error().code, ErrorCode::usage);
+  }
+}
+
+// More particles than a part of a read has.
+TEST_F(Views, ReadLargeStatesWithoutACopyInBetween) {
+  const SharedModel model = shared(test::particles(std::vector<Vec3>(gl::read_part_bytes / 32 + 1000),
+                                                   std::vector<Vec3>(gl::read_part_bytes / 32 + 1000)));
+  const auto gpu = std::move(make_gpu_solver(context(), model)).value();
+  State start = initial_state(*model, Precision::single), read = start;
+  for (std::size_t i = 0; i < start.position.size(); ++i) {
+    const auto number = static_cast<double>(i);
+    start.position[i] = {number, number + 0.25, number + 0.5};
+    start.velocity[i] = {-number, 2 * number, 0.0};
+  }
+  ASSERT_TRUE(gpu->load(start).ok());
+  const void* const place = read.position.data();
+  largest_allocation = 0;
+  ASSERT_TRUE(read_state(*gpu, read).ok());
+  EXPECT_LT(largest_allocation, std::size_t{65536});
+  EXPECT_EQ(read.position.data(), place);
+  EXPECT_EQ(read, start);
+}
+
+TEST_F(Views, ReadAsPicturesHaveThem) {
+  for (const auto& solver : solvers_) {
+    SCOPED_TRACE(solver->description());
+    ASSERT_TRUE(solver->advance(40).ok());
+    const State state = *solver->state();
+    std::vector<layout::Particle> particles(model_->particle_count());
+    std::vector<layout::Ball> balls(model_->ball_count());
+    ASSERT_EQ(*read_packed(*solver, particles, balls), 40u);
+    const auto bytes = [](const auto& items) {
+      const auto all = std::as_bytes(std::span(items));
+      return std::vector<std::byte>(all.begin(), all.end());
+    };
+    EXPECT_EQ(bytes(particles), bytes(packed_particles(*model_, state)));
+    EXPECT_EQ(bytes(balls), bytes(packed_balls(*model_, state)));
   }
 }
 
