@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "aspic/run.h"
 #include "aspic/scene.h"
 #include "base/stopwatch.h"
 #include "cli/json.h"
@@ -62,6 +64,9 @@ struct Measurement {
   double processors() const { return processor_median() / median(); }
   double spread() const { return (quantile(1.0) - quantile(0.0)) / median(); }
   double steps_per_second() const { return static_cast<double>(steps) / median(); }
+  double milliseconds_per_step() const { return 1e3 / steps_per_second(); }
+  /// Device time of a step, the sum of its passes [ms]; nothing where the backend has none.
+  std::optional<double> kernel_milliseconds_per_step() const;
   double spring_evaluations_per_second() const {
     return static_cast<double>(springs) * evaluations_per_step * steps_per_second();
   }
@@ -82,8 +87,8 @@ class Contestant {
   Contestant(const Contestant&) = delete;
   Contestant& operator=(const Contestant&) = delete;
 
-  /// From the start over `steps` steps, the wait for the device included; notes a divergence. Errors:
-  /// interrupted, and those of the backend.
+  /// From the start over `steps` steps, until the device is done with them; the state is not read. Notes a
+  /// divergence. Errors: interrupted, and those of the backend.
   virtual Result<Took> run(std::uint64_t steps) = 0;
   /// After the last run: what is not measured within runs.
   virtual Status finish() { return {}; }
@@ -95,6 +100,22 @@ class Contestant {
 Result<std::unique_ptr<Contestant>> make_backend_contestant(const BackendChoice& choice,
                                                             const SharedModel& shared_model,
                                                             const InterruptGuard& interrupt);
+
+/// The same with its solver.
+std::unique_ptr<Contestant> make_backend_contestant(Backend backend, const InterruptGuard& interrupt);
+
+/// Runs shorter than this are at clocks of an idle device [s]: work that goes before the calibration.
+inline constexpr double warm_seconds = 0.3;
+/// Repeats of fewer steps measure the waits at their ends too.
+inline constexpr std::uint64_t fewest_steps = 20;
+
+/// Steps that take about `seconds`, 1 to `most`: by a run of at least a quarter of that, at the end of
+/// warm_seconds of work. Errors: those of Contestant::run().
+Result<std::uint64_t> steps_for(Contestant& contestant, double seconds, std::uint64_t most);
+
+/// What to say of a row whose repeats have fewer than fewest_steps; nothing of others. `option`: what makes
+/// them longer.
+std::string steps_warning(const Measurement& m, std::string_view option);
 
 /// A program of bench/peers/peers.txt.
 struct PeerProgram {

@@ -27,20 +27,6 @@ Result<double> chosen_timestep(const BenchOptions& options, const Model& model) 
   return std::isfinite(*limit.step) ? 0.99 * *limit.step : own;
 }
 
-/// Steps that take about `seconds`, found by doubling, at most `most`.
-Result<std::uint64_t> steps_for(Contestant& contestant, double seconds, std::uint64_t most) {
-  for (std::uint64_t steps = 1;; steps *= 2) {
-    ASPIC_TRY(const auto took, contestant.run(std::min(steps, most)));
-    if (contestant.m.divergence || steps >= most) return std::min(steps, most);
-    if (took.seconds > seconds / 4) {
-      const double wanted = static_cast<double>(steps) * seconds / took.seconds;
-      return wanted < static_cast<double>(most)
-                 ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted))
-                 : most;
-    }
-  }
-}
-
 /// One size and integrator.
 class Case {
  public:
@@ -175,6 +161,33 @@ Status measure_all(const BenchOptions& options, const Scene& loaded, const Inter
 
 }  // namespace
 
+Result<std::uint64_t> steps_for(Contestant& contestant, double seconds, std::uint64_t most) {
+  double worked = 0.0;
+  for (std::uint64_t steps = 1;;) {
+    ASPIC_TRY(const auto took, contestant.run(steps));
+    worked += took.seconds;
+    if (contestant.m.divergence) return steps;
+    const bool long_enough = took.seconds > seconds / 4;
+    if (!long_enough && steps == most) return most;
+    if (long_enough && worked >= warm_seconds) {
+      const double wanted = static_cast<double>(steps) * seconds / took.seconds;
+      return wanted < static_cast<double>(most)
+                 ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted))
+                 : most;
+    }
+    if (!long_enough) steps = std::min(2 * steps, most);
+  }
+}
+
+std::string steps_warning(const Measurement& m, std::string_view option) {
+  if (!m.counts() || m.steps >= fewest_steps) return "";
+  return fmt::format(
+      "{}, {} per edge, {}: a repeat has {} step{}, and fewer than {} also measure the start and the end of "
+      "a "
+      "run. Raise {}.",
+      m.name, m.size, name_of(m.integrator), m.steps, m.steps == 1 ? "" : "s", fewest_steps, option);
+}
+
 Status execute(const BenchOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_TRY(const auto loaded, load_scene(options.scene, options.overrides, by_set));
@@ -184,6 +197,10 @@ Status execute(const BenchOptions& options) {
   report.interrupted = !measured && measured.error().code == ErrorCode::interrupted;
   if (!report.rows.empty() || measured.ok()) {
     compare_rows(report.rows);
+    for (const Measurement& m : report.rows) {
+      const std::string warning = steps_warning(m, options.duration ? "--duration" : "--seconds");
+      if (!warning.empty()) print_warning(warning);
+    }
     ASPIC_CHECK(options.json ? print_data(to_text(json_of(report))) : print_text(table_of(report)));
   }
   if (!report.interrupted) return measured;

@@ -90,6 +90,20 @@ TEST(Bench, KeepsWhatItMeasuredBeforeAnError) {
   EXPECT_EQ(nlohmann::json::parse(run.out)["measurements"].size(), 1u);
 }
 
+TEST(Bench, MeasuresKernelsOnADeviceAndWarnsOfShortRepeats) {
+  const auto run = aspic({"bench", "--backend", "gpu:gather,cpu", "--size", "3", "--duration", "0.005",
+                          "--repeats", "1", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto rows = nlohmann::json::parse(run.out)["measurements"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_GT(rows[0]["kernel_milliseconds_per_step"], 0.0);
+  EXPECT_GT(rows[0]["milliseconds_per_step"], 0.0);
+  EXPECT_TRUE(rows[1]["kernel_milliseconds_per_step"].is_null());
+  EXPECT_NE(run.err.find("gpu:gather, 3 per edge, explicit-euler: a repeat has 5 steps"), std::string::npos)
+      << run.err;
+  EXPECT_NE(run.err.find("Raise --duration"), std::string::npos) << run.err;
+}
+
 TEST(Bench, LargestStepIsTheIntegratorsOwn) {
   const auto run = aspic({"bench", "--backend", "reference", "--size", "3", "--duration", "0.05", "--repeats",
                           "1", "--timestep", "largest", "--integrator", "explicit-euler", "--integrator",
