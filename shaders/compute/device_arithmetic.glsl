@@ -11,6 +11,12 @@ float device_sqrt(float x) {
   return root;
 }
 
+// A start for roots; no exact kernel uses it otherwise.
+float device_inversesqrt(float x) {
+  precise float inverse = inversesqrt(x);
+  return inverse;
+}
+
 float device_mul(float a, float b) {
   precise float product = a * b;
   return product;

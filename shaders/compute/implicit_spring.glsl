@@ -12,9 +12,10 @@ struct SpringJacobian {
 // Force on the end the vectors point to, and the Jacobian: e = spring vector at the step's end, v = relative velocity.
 vec3 linearised(SpringClass spring, vec3 e, vec3 v, out SpringJacobian H) {
   H = SpringJacobian(0.0, 0.0, vec3(0.0));
-  precise float L = norm3(e);
+  precise vec2 root = exact_sqrt_rcp(dot3(e, e));
+  precise float L = root.x;
   if (L == 0.0 || (spring.cord != 0u && L < spring.rest_length)) return vec3(0.0);
-  precise float q = exact_div(1.0, L);
+  precise float q = root.y;
   precise float s = spring.stiffness * (L - spring.rest_length) + spring.damping * (dot3(v, e) * q);
   precise vec3 f = -((s * q) * e);
   precise float along = (time_step * time_step) * spring.stiffness + time_step * spring.damping;

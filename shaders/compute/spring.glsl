@@ -5,9 +5,10 @@
 vec4 spring_force(SpringClass spring, vec3 x_a, vec3 v_a, vec3 x_b, vec3 v_b) {
   precise vec3 e = x_a - x_b;
   precise vec3 v = v_a - v_b;
-  precise float L = norm3(e);
+  precise vec2 root = exact_sqrt_rcp(dot3(e, e));
+  precise float L = root.x;
   if (L == 0.0 || (spring.cord != 0u && L < spring.rest_length)) return vec4(0.0);
-  precise float q = exact_div(1.0, L);
+  precise float q = root.y;
   precise float s = spring.stiffness * (L - spring.rest_length) + spring.damping * (dot3(v, e) * q);
   precise vec3 f = -((s * q) * e);
   return vec4(f, s);

@@ -89,6 +89,8 @@ ArithmeticReport compare(std::span<const CanaryOperands> operands, std::span<con
   return report;
 }
 
+constexpr const char* quick_define = "ASPIC_QUICK";
+
 std::string sentence(const OperationCheck& check, std::string_view remedy) {
   if (check.exact())
     return fmt::format("The device's {} are exact: {} of {}.", check.name, check.checked, check.checked);
@@ -116,6 +118,20 @@ Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrar
   return compare(operands, output.download_items<Outcome>(count));
 }
 
+Result<MantissaReport> try_mantissas(Context& context, const ShaderLibrary& library,
+                                     std::span<const Define> defines) {
+  constexpr std::uint32_t mantissas = 128;  // of an invocation
+  ASPIC_TRY(const auto program,
+            context.programs().compute(library, "compute/canary_mantissas.comp", defines));
+  ASPIC_TRY(auto tally, Buffer::create(context, "canary tally", 4 * sizeof(std::uint32_t)));
+  tally.clear();
+  const std::uint32_t count = (1u << 24) / mantissas;
+  program->set(0, count);
+  Pass(*program, {{.binding = 0, .buffer = &tally}}, ReadBy::read_back).dispatch_for(count);
+  const auto found = tally.download_items<std::uint32_t>(3);
+  return MantissaReport{found[0], found[1], found[2]};
+}
+
 Result<Arithmetic> choose_arithmetic(Context& context, const ShaderLibrary& library,
                                      std::span<const Define> extra) {
   ASPIC_TRY(auto device, measure_arithmetic(context, library, extra));
@@ -123,10 +139,26 @@ Result<Arithmetic> choose_arithmetic(Context& context, const ShaderLibrary& libr
   if (!device.division_exact()) choice.defines.push_back({"ASPIC_CORRECT_DIV", "1"});
   if (!device.sqrt_exact()) choice.defines.push_back({"ASPIC_CORRECT_SQRT", "1"});
   if (choice.defines.empty()) return choice;
-  if (device.fma_fused) choice.defines.push_back({"ASPIC_FUSED_FMA", "1"});
-  std::vector<Define> both(choice.defines);
-  both.insert(both.end(), extra.begin(), extra.end());
-  ASPIC_TRY(choice.corrected, measure_arithmetic(context, library, both));
+  const auto with_extra = [&](std::vector<Define> defines) {
+    defines.insert(defines.end(), extra.begin(), extra.end());
+    return defines;
+  };
+  if (device.fma_fused) {
+    choice.defines.push_back({"ASPIC_FUSED_FMA", "1"});
+    for (const char* steps : {"1", "2"}) {
+      std::vector<Define> quick = choice.defines;
+      quick.push_back({quick_define, steps});
+      const std::vector<Define> all = with_extra(quick);
+      ASPIC_TRY(const MantissaReport mantissas, try_mantissas(context, library, all));
+      if (!mantissas.exact()) continue;
+      ASPIC_TRY(auto corrected, measure_arithmetic(context, library, all));
+      if (!corrected.division_exact() || !corrected.sqrt_exact()) continue;
+      choice.corrected = corrected;
+      choice.defines = std::move(quick);
+      return choice;
+    }
+  }
+  ASPIC_TRY(choice.corrected, measure_arithmetic(context, library, with_extra(choice.defines)));
   return choice;
 }
 
@@ -140,11 +172,15 @@ std::uint32_t Arithmetic::worst_ulps() const {
 }
 
 std::vector<std::string> Arithmetic::sentences() const {
+  const auto quick = std::ranges::find(defines, quick_define, &Define::name);
+  const std::string form = quick == defines.end() ? "slow corrected form"
+                                                  : fmt::format("quick corrected form ({} Newton step{})",
+                                                                quick->value, quick->value == "1" ? "" : "s");
   const auto remedy = [&](bool mended) {
-    return mended ? " Kernels use the corrected form, which is exact."
-                  : " The corrected form is not exact either: results will differ from the reference.";
+    return mended ? fmt::format(" Kernels use the {}, which is exact.", form)
+                  : fmt::format(" The {} is not exact either: results will differ from the reference.", form);
   };
-  const std::string_view division = remedy(corrected && corrected->division_exact());
+  const std::string division = remedy(corrected && corrected->division_exact());
   constexpr std::string_view contracts =
       " The compiler contracts them despite `precise`: results will differ from the reference.";
   const std::string_view differs = " Nothing can be done about that: results will differ from the reference.";

@@ -69,11 +69,27 @@ struct ArithmeticReport {
 Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrary& library,
                                             std::span<const Define> defines = {});
 
+/// What the exact forms give with every mantissa of a root, and of a reciprocal of a root: integers judge it
+/// on the device (shaders/compute/canary_mantissas.comp).
+struct MantissaReport {
+  std::uint32_t tried = 0;
+  std::uint32_t wrong_roots = 0;
+  std::uint32_t wrong_reciprocals = 0;
+
+  bool exact() const { return tried == 1u << 24 && wrong_roots == 0 && wrong_reciprocals == 0; }
+};
+
+/// Runs the exact forms of these defines on 2^24 mantissas. Errors: as measure_arithmetic.
+Result<MantissaReport> try_mantissas(Context& context, const ShaderLibrary& library,
+                                     std::span<const Define> defines);
+
 /// How kernels have to be compiled on a device, and what to say about it.
 struct Arithmetic {
   ArithmeticReport device;                    ///< the device's own operations
   std::optional<ArithmeticReport> corrected;  ///< measured again with `defines`, where they are needed
-  std::vector<Define> defines;  ///< ASPIC_CORRECT_DIV, ASPIC_CORRECT_SQRT, ASPIC_FUSED_FMA, as needed
+  /// ASPIC_CORRECT_DIV, ASPIC_CORRECT_SQRT, ASPIC_FUSED_FMA, ASPIC_QUICK (shaders/compute/exact.glsl), as
+  /// needed
+  std::vector<Define> defines;
   /// How far off a single operation may be in kernels compiled with `defines`, in units in the last place:
   /// the worst case that was found. A contracted product and sum counts as one, since what it leaves out is
   /// one rounding. 0: exact.
@@ -85,8 +101,9 @@ struct Arithmetic {
   std::vector<std::string> sentences() const;
 };
 
-/// Measures the device, and where quotients or roots are not exact, measures the corrected forms too. `extra`
-/// goes to both measurements. Errors: as measure_arithmetic.
+/// Measures the device, and where quotients or roots are not exact, the corrected forms too: the quick form
+/// with fewest steps that is exact for every mantissa, or the slow form. `extra` goes to all measurements.
+/// Errors: as measure_arithmetic.
 Result<Arithmetic> choose_arithmetic(Context& context, const ShaderLibrary& library,
                                      std::span<const Define> extra = {});
 

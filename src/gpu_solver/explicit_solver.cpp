@@ -5,6 +5,7 @@
 
 #include "gpu/read_ring.h"
 #include "gpu_solver/device_solver.h"
+#include "gpu_solver/group_size.h"
 #include "gpu_solver/queue_depth.h"
 #include "gpu_solver/touch_passes.h"
 #include "model/integrator.h"
@@ -53,7 +54,9 @@ class ExplicitSolver final : public DeviceSolver {
   };
   /// Kinds of passes, for the profiler.
   enum Kind : std::size_t { springs_kind, lattices_kind, cells_kind, particles_kind };
-  std::uint32_t group_size(const GpuOptions& options) const override { return options.group_size; }
+  std::uint32_t group_size(const GpuOptions& options) const override {
+    return options.group_size > 0 ? options.group_size : group_size_on(context_.info());
+  }
   Status build_passes(const KernelOptions& kernels, const GpuOptions& options) override;
   void restart() override;
   Status take_steps(std::uint64_t steps) override { return carry_out(steps, !late_); }

@@ -27,7 +27,8 @@ class GpuSolver;
 
 struct GpuOptions {
   ForcePath force_path = ForcePath::automatic;
-  std::uint32_t group_size = 64;  ///< invocations per work group, 1…1024; never affects the bits
+  /// Invocations per work group, 1…1024; 0: by device (group_size.h). Never affects the bits.
+  std::uint32_t group_size = 0;
   /// Particles that an invocation of the path lattice takes, 1 or 4; 0: 4 on software rasterisers, which then
   /// read a neighbour once for several, and 1 on hardware, whose lanes then read neighbouring particles.
   /// Never affects the bits.

@@ -6,6 +6,7 @@
 
 #include "base/flush_denormals.h"
 #include "gpu/canary.h"
+#include "gpu/exact_forms.h"
 #include "gpu/pass.h"
 #include "support/gl_fixture.h"
 
@@ -142,6 +143,50 @@ TEST_F(CanaryGl, CorrectedFormsKeepTheMeaningOfSpecialValues) {
     EXPECT_TRUE(same(got[i][0], a / b)) << a << " / " << b << " gave " << got[i][0];
     EXPECT_TRUE(same(got[i][1], std::sqrt(a))) << "the root of " << a << " gave " << got[i][1];
   }
+}
+
+std::vector<Define> quick_form(const char* steps, std::vector<Define> faults) {
+  faults.insert(faults.end(), {{"ASPIC_CORRECT_DIV", "1"},
+                               {"ASPIC_CORRECT_SQRT", "1"},
+                               {"ASPIC_FUSED_FMA", "1"},
+                               {"ASPIC_QUICK", steps},
+                               {"FAULT_FUSED", "1"}});
+  return faults;
+}
+
+// The device's count is that of the same text on the processor, which judges by its own quotients and roots.
+TEST_F(CanaryGl, CountsWrongMantissas) {
+  testing::device_fault = 1;
+  const testing::WrongForms expected = testing::exact_forms()[1].count_wrong(1);
+  testing::device_fault = 0;
+  ASSERT_GT(expected.roots, 0u);
+  for (const char* steps : {"1", "2"}) {
+    const auto defines = quick_form(steps, {{"FAULT_DIV", "1"}, {"FAULT_SQRT", "1"}});
+    const auto found = try_mantissas(context(), ShaderLibrary(ASPIC_TEST_SHADERS), defines);
+    ASSERT_TRUE(found.ok()) << found.error().message();
+    const bool exact = defines[5].value == "2";
+    EXPECT_EQ(found->exact(), exact);
+    EXPECT_EQ(found->tried, 1u << 24);
+    EXPECT_EQ(found->wrong_roots, exact ? 0 : expected.roots);
+    EXPECT_EQ(found->wrong_reciprocals, exact ? 0 : expected.reciprocals_of_roots);
+  }
+  EXPECT_FALSE(MantissaReport{}.exact()) << "nothing was tried";
+}
+
+TEST_F(CanaryGl, TakesTheQuickFormOfFewestStepsThatIsExact) {
+  const auto steps_chosen = [&](const char* ulps, const char* rare) {
+    const Arithmetic choice = choose({{"FAULT_DIV", ulps}, {"FAULT_RARE", rare}, {"FAULT_FUSED", "1"}});
+    EXPECT_TRUE(choice.exact());
+    const auto quick = std::ranges::find(choice.defines, "ASPIC_QUICK", &Define::name);
+    const bool slow = quick == choice.defines.end();
+    EXPECT_NE(choice.sentences()[0].find(slow ? "the slow corrected form" : "the quick corrected form"),
+              std::string::npos)
+        << choice.sentences()[0];
+    return slow ? "slow" : quick->value;
+  };
+  EXPECT_EQ(steps_chosen("1", "0xffffu"), "1");
+  EXPECT_EQ(steps_chosen("1", "0u"), "2");
+  EXPECT_EQ(steps_chosen("30000", "0xfffffu"), "slow");
 }
 
 TEST_F(CanaryGl, OnlyWhatIsWrongIsCorrected) {

@@ -123,8 +123,9 @@ class Linter {
 
   void check_call() {
     if (text(1) != "(" || text(-1) == ".") return;
-    if (is_forbidden(text())) offend("forbidden", at_);
-    if (text() == "fma" && path_ != "compute/device_arithmetic.glsl") offend("fma", at_);
+    const bool device = path_ == "compute/device_arithmetic.glsl";
+    if (is_forbidden(text()) && !(device && text() == "inversesqrt")) offend("forbidden", at_);
+    if (text() == "fma" && !device) offend("fma", at_);
     if (in_code()) check_arguments();
   }
 

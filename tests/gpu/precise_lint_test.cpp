@@ -41,12 +41,13 @@ TEST(PreciseLint, OptsOutWithAReasonInTheFirstLineOnly) {
   EXPECT_FALSE(opted_out("float x;\n// not-exact: too late"));
 }
 
-TEST(PreciseLint, LetsFmaStandInOneFileAlone) {
+TEST(PreciseLint, AllowsFmaAndInverseRootsInOneFile) {
   const std::string text = contents(std::filesystem::path(ASPIC_SHADERS) / "compute/device_arithmetic.glsl");
   EXPECT_TRUE(lint("compute/device_arithmetic.glsl", text).empty());
   const auto elsewhere = lint("compute/other.glsl", text);
-  ASSERT_EQ(elsewhere.size(), 1u);
-  EXPECT_EQ(elsewhere.front().rule, "fma");
+  ASSERT_EQ(elsewhere.size(), 2u);
+  EXPECT_EQ(elsewhere.front().rule, "forbidden");
+  EXPECT_EQ(elsewhere.back().rule, "fma");
 }
 
 TEST(PreciseLint, ComputeShadersAreClean) {

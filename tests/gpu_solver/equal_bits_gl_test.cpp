@@ -99,6 +99,7 @@ TEST_F(EqualBits, CoveringSet) {
     options.force_path = row.path;
     options.lattice_run = row.lattice_run;
     options.split_stages = split_;
+    options.group_size = 256;  // as on hardware; built-in scenes below have the size for software
     const Model model = test::model_of(row);
     auto solver = make_gpu_solver(context(), model, options);
     ASSERT_TRUE(solver.ok()) << solver.error().message();

@@ -5,6 +5,7 @@
 #include "gpu/pass.h"
 #include "gpu_solver/capacity.h"
 #include "gpu_solver/gpu_solver.h"
+#include "gpu_solver/group_size.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 
@@ -34,18 +35,26 @@ class LimitsGl : public aspic::testing::GlTest {
 TEST_F(LimitsGl, GroupsThatTheDeviceDoesNotTakeAreRefused) {
   const Model model = test::build(test::cube_on_plane(3));
   const std::uint32_t most = context().info().limits.group_invocations;
-  for (const std::uint32_t size : {0u, most + 1}) {
-    GpuOptions options;
-    options.group_size = size;
-    const auto refused = make_gpu_solver(context(), model, options);
-    ASSERT_FALSE(refused.ok());
-    EXPECT_EQ(refused.error().code, ErrorCode::no_device);
-    EXPECT_THAT(refused.error().message(), HasSubstr("work groups of 1 to"));
-    EXPECT_THAT(refused.error().message(), HasSubstr(std::to_string(size)));
-  }
   GpuOptions options;
+  options.group_size = most + 1;
+  const auto refused = make_gpu_solver(context(), model, options);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::no_device);
+  EXPECT_THAT(refused.error().message(), HasSubstr("work groups of 1 to"));
+  EXPECT_THAT(refused.error().message(), HasSubstr(std::to_string(most + 1)));
   options.group_size = most;
   EXPECT_TRUE(make_gpu_solver(context(), model, options).ok());
+}
+
+TEST(GroupSize, DependsOnTheDevice) {
+  gl::DeviceInfo device;
+  device.limits.group_invocations = 1024;
+  device.limits.group_size = {1024, 1024, 64};
+  EXPECT_EQ(group_size_on(device), 256u);
+  device.limits.group_invocations = 128;
+  EXPECT_EQ(group_size_on(device), 128u);
+  device.is_software = true;
+  EXPECT_EQ(group_size_on(device), 64u);
 }
 
 TEST_F(LimitsGl, ASceneThatNeedsMoreThanIsFreeIsRefusedBeforeAnythingIsAllocated) {

@@ -80,6 +80,7 @@ class Glslang : public aspic::testing::GlTest {
       const std::vector<gl::Define>& defines = variant.options.arithmetic->defines;
       if (!arithmetic.insert(defines.size()).second) continue;
       ASSERT_TRUE(gl::measure_arithmetic(context(), gl::ShaderLibrary{}, defines).ok());
+      ASSERT_TRUE(gl::try_mantissas(context(), gl::ShaderLibrary{}, defines).ok());
     }
   }
 

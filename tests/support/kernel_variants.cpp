@@ -144,6 +144,8 @@ const std::vector<KernelVariant>& kernel_variants() {
       variants.add("plane", cube_on(method, plane), corrected);
       corrected.arithmetic->defines.push_back({"ASPIC_FUSED_FMA", "1"});
       variants.add("plane, with balls", with_balls(cube_on(method, plane)), corrected);
+      corrected.arithmetic->defines.push_back({"ASPIC_QUICK", "2"});
+      variants.add("plane", cube_on(method, plane), corrected);
     }
     // Both forms of the kernels of lattices, and fast arithmetic on each path.
     for (const Integrator method : {Integrator::explicit_euler, Integrator::midpoint}) {
