@@ -27,6 +27,9 @@ constexpr GLenum context_lost = 0x0507;
 constexpr GLenum nvx_free_memory = 0x9049;
 constexpr GLenum ati_vertex_free_memory = 0x87fb;
 
+// Of KHR_parallel_shader_compile.
+constexpr GLuint as_many_as_it_likes = 0xffffffffu;
+
 bool has_extension(std::string_view name) {
   GLint count = 0;
   glGetIntegerv(GL_NUM_EXTENSIONS, &count);
@@ -44,7 +47,7 @@ std::vector<Remedy> room_on_device() {
 
 }  // namespace
 
-Context::Context() : programs_(std::make_unique<ProgramCache>(*this)) {}
+Context::Context() : programs_(std::make_unique<ProgramCache>(*this, program_folder())) {}
 
 Result<std::shared_ptr<Context>> Context::adopt_current(Loader loader, WindowContext window) {
   const int version = gladLoadGL(loader);
@@ -80,6 +83,14 @@ void Context::start(std::string platform, Loader loader) {
     GLint strategy = 0;
     glGetIntegerv(reset_notification_strategy, &strategy);
     info_.robust = reset_status_ && strategy == lose_context_on_reset;
+  }
+  // Some drivers compile on the calling thread until they are told how many threads they may take.
+  for (const std::string name : {"KHR", "ARB"}) {
+    if (!has_extension("GL_" + name + "_parallel_shader_compile")) continue;
+    const auto set_most =
+        reinterpret_cast<void (*)(GLuint)>(loader(("glMaxShaderCompilerThreads" + name).c_str()));
+    if (set_most) set_most(as_many_as_it_likes);
+    break;
   }
   // A software rasteriser's memory is the machine's, whatever its driver answers: Mesa 25's llvmpipe says
   // that 32 MiB are free where 20 GiB are.

@@ -48,7 +48,7 @@ void Pass::prepare(std::span<const Binding> extra) const {
 }
 
 void Pass::dispatch_for(std::uint32_t count, std::span<const Binding> extra, ReadBy readers) const {
-  if (count == 0 || !program_->context().begins_dispatch()) return;
+  if (count == 0 || program_->id() == 0 || !program_->context().begins_dispatch()) return;
   prepare(extra);
   const GroupCount groups = groups_for(count, program_->group_size()[0]);
   glDispatchCompute(groups.x, groups.y, 1);

@@ -81,8 +81,7 @@ Status BallFacePasses::build(gl::Context& context, const Model& model, const Ker
                          {BINDING_BALL_FACE_PAIRS, &pairs_},
                          {BINDING_BALL_FACE_COUNTS, &counts_}});
   for (std::size_t k = 0; k < kernel_count; ++k) {
-    ASPIC_TRY(programs_[k],
-              context.programs().compute(kernels.library, face_kernels[k].path, kernels.defines));
+    ASPIC_TRY(programs_[k], kernels.start(face_kernels[k].path));
     passes_[k].emplace(*programs_[k], all, ReadBy::compute_pass);
   }
   return {};

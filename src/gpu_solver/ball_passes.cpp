@@ -193,17 +193,15 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
   grid_ = search == BallSearch::automatic ? grid_pays(count_) : search == BallSearch::grid;
   ASPIC_CHECK(build_buffers());
 
-  std::vector<gl::Define> defines = kernels.defines;
-  if (implicit_) defines.push_back({"ASPIC_IMPLICIT", "1"});
-  if (grid_) defines.push_back({"ASPIC_BALL_GRID", "1"});
+  KernelOptions own = kernels;
+  if (implicit_) own.defines.push_back({"ASPIC_IMPLICIT", "1"});
+  if (grid_) own.defines.push_back({"ASPIC_BALL_GRID", "1"});
   static_assert(BINDING_SOLVE == BINDING_CONTROL, "one place for either");
-  KernelOptions with_defines = kernels;
-  with_defines.defines = defines;
-  ASPIC_CHECK(faces_.build(context, model, with_defines,
+  ASPIC_CHECK(faces_.build(context, model, own,
                            {{BINDING_SIMULATION, surroundings.simulation, gl::BufferKind::uniform},
                             {BINDING_BALLS, &balls_},
                             {BINDING_CONTROL, surroundings.control}}));
-  if (faces_.any()) defines.push_back({"ASPIC_BALL_FACES", "1"});
+  if (faces_.any()) own.defines.push_back({"ASPIC_BALL_FACES", "1"});
   for (std::size_t k = 0; k < kernel_count; ++k) {
     if (!wanted(static_cast<Kernel>(k))) continue;
     std::vector<Binding> bindings = {
@@ -216,7 +214,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
         {BINDING_BALL_WORK, &work_},
         {BINDING_CONTROL, surroundings.control}};
     if (k == fly) bindings.push_back(surroundings.pulls);
-    ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, ball_kernels[k].path, defines));
+    ASPIC_TRY(programs_[k], own.start(ball_kernels[k].path));
     passes_[k].emplace(*programs_[k], bindings, ReadBy::compute_pass);
   }
   return {};

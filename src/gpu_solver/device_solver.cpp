@@ -19,7 +19,8 @@ using gl::Buffer;
 Status DeviceSolver::build(const GpuOptions& options) {
   const std::uint64_t held_before = context_.bytes_held();
   ASPIC_CHECK(build_shared(options));
-  ASPIC_TRY(KernelOptions kernels, kernel_options(context_, *model_, options, group_size(options)));
+  gl::ProgramBatch batch(context_.programs());
+  ASPIC_TRY(KernelOptions kernels, kernel_options(context_, *model_, options, group_size(options), batch));
   if (takes_lattices()) {
     kernels.defines.push_back({"ASPIC_LATTICES", "1"});
     if (lattice_particles(*model_) < model_->particle_count())
@@ -27,6 +28,7 @@ Status DeviceSolver::build(const GpuOptions& options) {
   }
   arithmetic_ = kernels.arithmetic;
   ASPIC_CHECK(build_passes(kernels, options));
+  ASPIC_CHECK(batch.finish());
   bytes_ = context_.bytes_held() - held_before;
   if (springs_.use_count() > 1) bytes_ += springs_->bytes();  // held before, by the solver it shares with
   const State start = initial_state(*model_, Precision::single);
@@ -208,7 +210,7 @@ void DeviceSolver::read(const StateView& view) const {
 
 Result<gl::Pass> DeviceSolver::pass(const KernelOptions& kernels, std::string_view path,
                                     std::vector<gl::Binding> bindings) {
-  ASPIC_TRY(auto program, context_.programs().compute(kernels.library, path, kernels.defines));
+  ASPIC_TRY(auto program, kernels.start(path));
   programs_.push_back(std::move(program));
   return gl::Pass(*programs_.back(), std::move(bindings), gl::ReadBy::compute_pass);
 }

@@ -192,8 +192,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
 
 /// What follows the forces of springs, and of contact between bodies.
 Status ExplicitSolver::build_rest(const KernelOptions& kernels, std::vector<Binding> bindings) {
-  ASPIC_TRY(rest_program_,
-            context_.programs().compute(kernels.library, "compute/touch_finish.comp", kernels.defines));
+  ASPIC_TRY(rest_program_, kernels.start("compute/touch_finish.comp"));
   rest_pass_.emplace(*rest_program_, std::move(bindings), ReadBy::compute_pass);
   return {};
 }

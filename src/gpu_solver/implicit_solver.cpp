@@ -111,13 +111,12 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   KernelOptions own_kernels = kernels;
   if (touch_.any()) own_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
   if (lengths_.any()) own_kernels.defines.push_back({"ASPIC_ACTUATED", "1"});
-  ASPIC_CHECK(touch_passes_.build(context_, kernels,
-                                  {constants(),
-                                   {BINDING_SOLVE, &solve_buffer_},
-                                   {BINDING_STATE_A, &states_[0]},
-                                   {BINDING_STATE_B, &states_[1]},
-                                   {BINDING_TRIAL, &trial_},
-                                   {BINDING_SEARCH, &search_}}));
+  ASPIC_CHECK(touch_passes_.build(kernels, {constants(),
+                                            {BINDING_SOLVE, &solve_buffer_},
+                                            {BINDING_STATE_A, &states_[0]},
+                                            {BINDING_STATE_B, &states_[1]},
+                                            {BINDING_TRIAL, &trial_},
+                                            {BINDING_SEARCH, &search_}}));
   for (const KernelRow& row : implicit_kernels) {
     ASPIC_TRY(auto made, sliced_pass(own_kernels, row.path, bindings, model_->particle_count(),
                                      {.item = own, .particle = particle, .word = sizeof(std::uint32_t)},

@@ -14,8 +14,7 @@ constexpr bool has_number[] = {true, true, false, false, false, false, false, fa
 
 }  // namespace
 
-Status ImplicitTouchPasses::build(gl::Context& context, const KernelOptions& kernels,
-                                  const Surroundings& surroundings) {
+Status ImplicitTouchPasses::build(const KernelOptions& kernels, const Surroundings& surroundings) {
   if (!bodies_.any()) return {};
   const auto& [constants, solve, a, b, trial, search] = surroundings;
   const TouchBuffers& t = bodies_;
@@ -30,7 +29,7 @@ Status ImplicitTouchPasses::build(gl::Context& context, const KernelOptions& ker
       {search, t.listed(), t.encounters(), t.words(), t.records()}};
   for (std::size_t k = 0; k < kernel_count; ++k) {
     const std::string path = std::string("compute/implicit_touch_") + names[k] + ".comp";
-    ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, path, kernels.defines));
+    ASPIC_TRY(programs_[k], kernels.start(path));
     std::vector<Binding> bindings = own[k];
     bindings.push_back(constants);
     bindings.push_back(solve);

@@ -22,7 +22,7 @@ class ImplicitTouchPasses {
   explicit ImplicitTouchPasses(const TouchBuffers& bodies) : bodies_(bodies) {}
 
   /// Makes programs; nothing at all for a model whose bodies do not touch. Errors as make_gpu_solver.
-  Status build(gl::Context& context, const KernelOptions& kernels, const Surroundings& surroundings);
+  Status build(const KernelOptions& kernels, const Surroundings& surroundings);
 
   /// Queues the look whether lists still hold, before a step begins.
   void queue_start() const { run(moved, bodies_.place_count(), bodies_.most()); }

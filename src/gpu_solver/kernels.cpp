@@ -62,7 +62,7 @@ void fill_stages(layout::Simulation& block, const Staged& method, double h) {
 }  // namespace
 
 Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, const GpuOptions& options,
-                                     std::uint32_t group_size) {
+                                     std::uint32_t group_size, gl::ProgramBatch& batch) {
   const gl::DeviceLimits& limits = context.info().limits;
   const std::uint32_t most = std::min(limits.group_invocations, limits.group_size[0]);
   if (group_size < 1 || group_size > most)
@@ -71,7 +71,7 @@ Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, c
                 "another group "
                 "size or another device.",
                 context.info().renderer, most, group_size);
-  KernelOptions kernels{gl::ShaderLibrary(options.shader_directory), {}, {}};
+  KernelOptions kernels{gl::ShaderLibrary(options.shader_directory), {}, {}, &batch};
   if (options.arithmetic) {
     kernels.arithmetic = *options.arithmetic;
   } else {

@@ -30,8 +30,7 @@ Status TouchPasses::build(gl::Context& context, const KernelOptions& kernels,
       {values, b.encounters(), b.records()},
       {b.listed(), b.encounters(), b.words(), b.records()}};
   for (std::size_t k = 0; k < kernel_count; ++k) {
-    ASPIC_TRY(programs_[k],
-              context.programs().compute(kernels.library, kernels_of_touch[k], kernels.defines));
+    ASPIC_TRY(programs_[k], kernels.start(kernels_of_touch[k]));
     std::vector<Binding> bindings = own[k];
     bindings.push_back(surroundings.constants);
     bindings.push_back(surroundings.control);

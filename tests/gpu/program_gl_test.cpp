@@ -1,7 +1,9 @@
+#include <EGL/egl.h>
 #include <gmock/gmock.h>
 
 #include "gpu/pass.h"
 #include "gpu/program.h"
+#include "support/gl_calls.h"
 #include "support/gl_fixture.h"
 #include "support/program_reflection.h"
 #include "support/temporary_directory.h"
@@ -9,6 +11,7 @@
 namespace aspic::gl {
 namespace {
 
+using aspic::testing::GlCalls;
 using aspic::testing::Reflection;
 
 using ::testing::HasSubstr;
@@ -155,6 +158,180 @@ TEST_F(ProgramCacheGl, ErrorsAreThoseOfTheProgram) {
   EXPECT_EQ(cache.compute(library, "no/such.comp").error().code, ErrorCode::io);
   EXPECT_THAT(cache.compute(library, "nine_blocks.comp").error().message(), HasSubstr("9 storage blocks"));
   EXPECT_EQ(cache.size(), 0u);
+}
+
+TEST_F(ProgramCacheGl, SharesOneProgramOfTextsThatAreEqual) {
+  ProgramCache cache(context());
+  const ShaderLibrary library(ASPIC_TEST_SHADERS);
+  const std::vector<Define> unused = {{"ASPIC_UNUSED", "1"}};
+  const auto first = cache.compute(library, "double_items.comp");
+  ASSERT_TRUE(first.ok()) << first.error().message();
+  EXPECT_EQ(*cache.compute(library, "double_items.comp", unused), *first);
+  EXPECT_EQ(cache.compiled(), 1u);
+}
+
+TEST_F(ProgramCacheGl, BeginsABatchBeforeItWaitsForAnyOfIt) {
+  ProgramCache cache(context());
+  const ShaderLibrary library(ASPIC_TEST_SHADERS);
+  const GlCalls calls;
+  ProgramBatch batch(cache);
+  for (const char* const path : {"count.comp", "layout.comp", "double_items.comp"})
+    ASSERT_TRUE(batch.start(library, {.compute = path}).ok());
+  EXPECT_EQ(calls.order, "LLL");
+  ASSERT_TRUE(batch.finish().ok());
+  EXPECT_EQ(cache.compiled(), 3u);
+  EXPECT_EQ(cache.size(), 3u);
+}
+
+TEST_F(ProgramCacheGl, ABatchNamesTheFirstProgramThatFailsAndKeepsTheOthers) {
+  ProgramCache cache(context());
+  const ShaderLibrary library(ASPIC_TEST_SHADERS);
+  ProgramBatch batch(cache);
+  for (const char* const path : {"count.comp", "broken/kernel.comp", "nine_blocks.comp", "layout.comp"})
+    ASSERT_TRUE(batch.start(library, {.compute = path}).ok());
+  const Status finished = batch.finish();
+  ASSERT_FALSE(finished.ok());
+  EXPECT_EQ(finished.error().code, ErrorCode::no_device);
+  EXPECT_THAT(finished.error().message(), HasSubstr("\nbroken/part.glsl:3: error"));
+  EXPECT_GE(forgive_errors(), 1);
+  // What was left unfinished is finished by whoever asks for it next; what failed is tried again.
+  const auto left = cache.compute(library, "layout.comp");
+  ASSERT_TRUE(left.ok()) << left.error().message();
+  EXPECT_GT((*left)->group_size()[0], 0u);
+  EXPECT_THAT(cache.compute(library, "broken/kernel.comp").error().message(),
+              HasSubstr("\nbroken/part.glsl:3: error"));
+  EXPECT_GE(forgive_errors(), 1);
+  EXPECT_EQ(cache.compiled(), 2u);
+}
+
+/// Caches that keep binaries in a folder, as those of two processes.
+class ProgramBinariesGl : public testing::GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    GLint formats = 0;
+    glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    if (formats == 0) GTEST_SKIP() << "the driver has no program binaries";
+  }
+  std::filesystem::path only_file() const { return std::filesystem::directory_iterator(folder())->path(); }
+  const std::filesystem::path& folder() const { return directory_.path(); }
+  std::string read() const { return directory_.read(only_file().filename().string()); }
+  void write(const std::string& text) const { directory_.write(only_file().filename().string(), text); }
+
+  const ShaderLibrary library_{ASPIC_TEST_SHADERS};
+
+ private:
+  test::TemporaryDirectory directory_;
+};
+
+TEST_F(ProgramBinariesGl, GiveTheNextProcessTheSameProgram) {
+  std::vector<Define> defines = {{"ASPIC_GROUP_SIZE", "32"}};
+  ProgramCache first(context(), folder()), second(context(), folder());
+  const auto compiled = first.compute(library_, "layout.comp", defines);
+  const GlCalls calls;
+  const auto loaded = second.compute(library_, "layout.comp", defines);
+  ASSERT_TRUE(compiled.ok() && loaded.ok());
+  EXPECT_EQ(calls.links(), 0);
+  EXPECT_EQ(first.compiled(), 1u);
+  EXPECT_EQ(second.compiled(), 0u);
+  EXPECT_EQ(second.loaded(), 1u);
+  EXPECT_EQ((*loaded)->group_size(), (*compiled)->group_size());
+  EXPECT_EQ((*loaded)->path(), (*compiled)->path());
+  const Reflection a(**compiled), b(**loaded);
+  EXPECT_EQ(b.storage_block_binding("Items"), a.storage_block_binding("Items"));
+  EXPECT_EQ(b.uniform_block_binding("Classes"), a.uniform_block_binding("Classes"));
+  EXPECT_EQ(b.uniform_location("gravity"), a.uniform_location("gravity"));
+  EXPECT_EQ(b.buffer_variable_offset("items[0].flags"), a.buffer_variable_offset("items[0].flags"));
+
+  const auto doubled = [&](ProgramCache& cache) {
+    const auto program = cache.compute(library_, "double_items.comp");
+    const std::vector<std::uint32_t> items = {1, 2, 35};
+    const auto given = Buffer::of(context(), "given", items), result = Buffer::of(context(), "result", items);
+    EXPECT_TRUE(program.ok() && given.ok() && result.ok());
+    (*program)->set(0, 3u);
+    Pass(**program, {{.binding = 0, .buffer = &*given}, {.binding = 1, .buffer = &*result}},
+         ReadBy::read_back)
+        .dispatch_for(3);
+    return result->download_items<std::uint32_t>(3);
+  };
+  EXPECT_EQ(doubled(first), (std::vector<std::uint32_t>{2, 4, 70}));
+  EXPECT_EQ(doubled(second), (std::vector<std::uint32_t>{2, 4, 70}));
+  EXPECT_EQ(second.loaded(), 2u);
+}
+
+TEST_F(ProgramBinariesGl, AreNotGivenToTheDriverWhereDamaged) {
+  ASSERT_TRUE(ProgramCache(context(), folder()).compute(library_, "count.comp").ok());
+  const std::string whole = read();
+  for (const std::size_t at : {std::size_t{0}, std::size_t{20}, whole.size() / 2, whole.size() - 1}) {
+    for (const bool cut : {false, true}) {
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(damaged[at] + 1);
+      write(cut ? whole.substr(0, at) : damaged);
+      ProgramCache cache(context(), folder());
+      const GlCalls calls;
+      ASSERT_TRUE(cache.compute(library_, "count.comp").ok());
+      EXPECT_THAT(calls.order, Not(HasSubstr("B"))) << at;
+      EXPECT_EQ(cache.compiled(), 1u);
+      EXPECT_EQ(read(), whole) << "the file is made anew";
+    }
+  }
+}
+
+TEST_F(ProgramBinariesGl, ThatTheDriverRefusesAreCompiledAnew) {
+  ASSERT_TRUE(ProgramCache(context(), folder()).compute(library_, "count.comp").ok());
+  ProgramFiles files(folder());
+  const std::string key = only_file().stem().string(), whole = read();
+  ProgramBinary binary = *files.load(key);
+  std::ranges::fill(binary.bytes, 'x');
+  files.store(key, binary);
+  ProgramCache cache(context(), folder());
+  const GlCalls calls;
+  ASSERT_TRUE(cache.compute(library_, "count.comp").ok());
+  EXPECT_THAT(calls.order, HasSubstr("B"));
+  EXPECT_EQ(cache.compiled(), 1u);
+  EXPECT_EQ(read(), whole);
+  forgive_errors();
+}
+
+TEST_F(ProgramBinariesGl, FollowTheTextOfTheShader) {
+  const test::TemporaryDirectory shaders;
+  for (const char* const value : {"8", "16"}) {
+    shaders.write("kernel.comp", std::string("layout(local_size_x = ") + value + ") in;\nvoid main() {}\n");
+    ProgramCache cache(context(), folder());
+    const auto program = cache.compute(ShaderLibrary(shaders.path()), "kernel.comp");
+    ASSERT_TRUE(program.ok());
+    EXPECT_EQ(std::to_string((*program)->group_size()[0]), value);
+    EXPECT_EQ(cache.compiled(), 1u);
+  }
+}
+
+/// What the driver of another card, or another version of the driver, answers.
+const GLubyte* other_renderer(GLenum name) {
+  static const auto real = reinterpret_cast<PFNGLGETSTRINGPROC>(eglGetProcAddress("glGetString"));
+  return name == GL_RENDERER ? reinterpret_cast<const GLubyte*>("another renderer") : real(name);
+}
+
+TEST_F(ProgramBinariesGl, AreNotTakenFromAnotherRenderer) {
+  ASSERT_TRUE(ProgramCache(context(), folder()).compute(library_, "count.comp").ok());
+  auto own = Context::create_headless({.debug = true, .device = testing::test_device()});
+  ASSERT_TRUE(own.ok()) << own.error().message();
+  {
+    ProgramCache same(**own, folder());
+    ASSERT_TRUE(same.compute(library_, "count.comp").ok());
+    EXPECT_EQ(same.loaded(), 1u);
+    const auto adopted = Context::adopt_current([](const char* name) {
+      return std::string_view(name) == "glGetString" ? reinterpret_cast<void (*)()>(other_renderer)
+                                                     : eglGetProcAddress(name);
+    });
+    ASSERT_TRUE(adopted.ok()) << adopted.error().message();
+    ProgramCache other(**adopted, folder());
+    ASSERT_TRUE(other.compute(library_, "count.comp").ok());
+    EXPECT_EQ(other.loaded(), 0u);
+    EXPECT_EQ(other.compiled(), 1u);
+  }
+  own->reset();
+  ASSERT_TRUE(context().make_current().ok());
+  ASSERT_NE(gladLoadGL(eglGetProcAddress), 0);
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 int main(int argc, char** argv) {
+  // The user's shader cache is not ours to use or to fill.
+  ::setenv("ASPIC_SHADER_CACHE", "off", 0);
   testing::InitGoogleTest(&argc, argv);
   const int code = RUN_ALL_TESTS();
   // GoogleTest calls that a success: a misspelt filter would pass for ever.
