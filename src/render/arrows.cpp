@@ -66,14 +66,9 @@ Legend arrow_legend(const ViewSettings& view, const ArrowSet& set) {
   return legend;
 }
 
-Result<std::unique_ptr<ArrowPainter>> ArrowPainter::create(gl::Context& context,
-                                                           const gl::ShaderLibrary& library) {
-  std::unique_ptr<ArrowPainter> painter(new ArrowPainter(context));
-  ASPIC_TRY(painter->program_,
-            gl::Program::graphics(context, library,
-                                  {"render/arrows.vert", "render/arrows.frag", "render/arrows.geom"}));
-  return painter;
-}
+ArrowPainter::ArrowPainter(const std::shared_ptr<RenderProgram::Source>& source)
+    : context_(&source->context),
+      program_(source, {"render/arrows.vert", "render/arrows.frag", "render/arrows.geom"}) {}
 
 Status ArrowPainter::draw(const ViewSettings& view, const ArrowSet& set) {
   const double scale = arrow_scale(view, set);

@@ -8,9 +8,9 @@
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/buffer.h"
-#include "gpu/program.h"
 #include "gpu/vertex_array.h"
 #include "render/overlay.h"
+#include "render/programs.h"
 
 namespace aspic {
 
@@ -44,8 +44,7 @@ Legend arrow_legend(const ViewSettings& view, const ArrowSet& set);
 /// Draws arrows. Its context must outlive it and be current.
 class ArrowPainter {
  public:
-  /// Errors: those of Program.
-  static Result<std::unique_ptr<ArrowPainter>> create(gl::Context& context, const gl::ShaderLibrary& library);
+  explicit ArrowPainter(const std::shared_ptr<RenderProgram::Source>& source);
 
   /// Draws into an unfinished picture whose frame block is bound and whose depth is complete: arrows are
   /// faint where something hides them, and those cut away are left out. Leaves blending off. Error
@@ -53,10 +52,8 @@ class ArrowPainter {
   Status draw(const ViewSettings& view, const ArrowSet& set);
 
  private:
-  explicit ArrowPainter(gl::Context& context) : context_(&context) {}
-
   gl::Context* context_;
-  gl::Program program_;
+  RenderProgram program_;
   gl::Buffer vertices_;
 };
 

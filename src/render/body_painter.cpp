@@ -47,12 +47,14 @@ void BodyPainter::draw_thickness() const {
 }
 
 void BodyPainter::draw_rods_and_balls() const {
-  programs.rods.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
-  glUseProgram(programs.rods.id());
-  if (view.draw.solid) buffers.rods().draw();
+  if (view.draw.solid && !buffers.rods().empty()) {
+    programs.rods.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
+    glUseProgram(programs.rods.id());
+    buffers.rods().draw();
+  }
   if (!draws_balls(view.draw)) return;
   glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-  buffers.balls().draw(programs.balls, state);
+  if (buffers.balls().shows(state)) buffers.balls().draw(programs.balls, state);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
@@ -74,6 +76,7 @@ void BodyPainter::draw_section() const {
 
 void BodyPainter::draw_springs() const {
   const DrawSettings draw = drawn_springs(view);
+  if (!aspic::draws_springs(draw)) return;
   glUseProgram(programs.springs.id());
   programs.springs.set(LOCATION_FADES, 0);
   const gl::VertexArray lines = buffers.spring_array(*state.particles);
@@ -83,6 +86,9 @@ void BodyPainter::draw_springs() const {
 }
 
 void BodyPainter::draw_cords() const {
+  if (std::ranges::none_of(buffers.springs(),
+                           [&](const SpringRun& run) { return draws_as_cord(view.draw, run); }))
+    return;
   glUseProgram(programs.springs.id());
   programs.springs.set(LOCATION_FADES, 1);
   const gl::VertexArray lines = buffers.spring_array(*state.particles);

@@ -23,15 +23,12 @@ constexpr double hidden_opacity = 0.15;
 
 }  // namespace
 
-Result<std::unique_ptr<HighlightPainter>> HighlightPainter::create(gl::Context& context,
-                                                                   const gl::ShaderLibrary& library) {
+Result<std::unique_ptr<HighlightPainter>> HighlightPainter::create(
+    const std::shared_ptr<RenderProgram::Source>& source) {
+  gl::Context& context = source->context;
   std::unique_ptr<HighlightPainter> p(new HighlightPainter(context));
-  ASPIC_TRY(p->marks_,
-            gl::Program::graphics(context, library,
-                                  {"render/particles.vert", "render/marks.frag", "render/marks.geom"}));
-  ASPIC_TRY(p->pull_,
-            gl::Program::graphics(context, library,
-                                  {"render/particles.vert", "render/marks.frag", "render/pull.geom"}));
+  p->marks_ = RenderProgram(source, {"render/particles.vert", "render/marks.frag", "render/marks.geom"});
+  p->pull_ = RenderProgram(source, {"render/particles.vert", "render/marks.frag", "render/pull.geom"});
   ASPIC_TRY(p->frame_, gl::Buffer::create(context, "marks' frame", sizeof(render_layout::Frame),
                                           gl::BufferKind::uniform));
   return p;
@@ -48,7 +45,7 @@ void HighlightPainter::draw_all(const ModelBuffers& model, const gl::Buffer& par
                                 const DrawSettings& draw, const HighlightOptions& options,
                                 const Tone& tone) const {
   const float radius = draw.particles ? static_cast<float>(particle_radius(model.spacing())) : 0.0f;
-  const auto prepare = [&](const gl::Program& program, float style, double size,
+  const auto prepare = [&](const RenderProgram& program, float style, double size,
                            const std::array<float, 4>& colour, float share) {
     if (style != MARK_LINE) program.set(LOCATION_RADIUS, share * radius);
     program.set(LOCATION_BASE_COLOUR, colour);

@@ -8,9 +8,9 @@
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/buffer.h"
-#include "gpu/program.h"
 #include "render/layout.h"
 #include "render/model_buffers.h"
+#include "render/programs.h"
 
 namespace aspic {
 
@@ -34,9 +34,9 @@ struct HighlightOptions {
 /// Draws marks at their particles' places in the particle buffer. Its context must outlive it and be current.
 class HighlightPainter {
  public:
-  /// Errors: those of Program and Buffer.
-  static Result<std::unique_ptr<HighlightPainter>> create(gl::Context& context,
-                                                          const gl::ShaderLibrary& library);
+  /// Errors: those of Buffer.
+  static Result<std::unique_ptr<HighlightPainter>> create(
+      const std::shared_ptr<RenderProgram::Source>& source);
 
   /// Draws into an unfinished picture whose frame block is bound and whose depth is complete: marks are faint
   /// where something hides them. Leaves blending off. Error (scene_rejected): no device memory.
@@ -59,7 +59,7 @@ class HighlightPainter {
                 const HighlightOptions& options, const Tone& tone) const;
 
   gl::Context* context_;
-  gl::Program marks_, pull_;
+  RenderProgram marks_, pull_;
   gl::Buffer frame_, list_;
   std::vector<std::uint32_t> listed_;
 };

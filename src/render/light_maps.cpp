@@ -80,8 +80,6 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
   const gl::VertexArray skin = model.skin_array(*state.particles), own = model.shaded_skin_array();
   const gl::VertexArray points = model.particle_array(*state.particles);
   const gl::VertexArray lines = model.spring_array(*state.particles);
-  programs.light_balls.set(LOCATION_RADIUS, 1.0f);
-  programs.light_particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(model.spacing())));
   for (int light = 0; light < LIGHTS; ++light) {
     DrawableImage& map = maps_[static_cast<std::size_t>(light)];
     map.framebuffer.bind();
@@ -92,10 +90,8 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
     glBlendEquation(sun ? GL_FUNC_ADD : GL_MAX);
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    for (const gl::Program* program :
-         {&programs.light_surface, &programs.light_particles, &programs.light_springs, &programs.light_balls})
-      program->set(LOCATION_LIGHT, light);
     if (draw.solid) {
+      programs.light_surface.set(LOCATION_LIGHT, light);
       glUseProgram(programs.light_surface.id());
       {
         const SkinsCut cut(view.cut);
@@ -106,16 +102,23 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
       }
       model.rods().draw();
     }
-    if (draws_balls(draw)) model.balls().draw(programs.light_balls, state);
+    if (draws_balls(draw) && model.balls().shows(state)) {
+      programs.light_balls.set(LOCATION_LIGHT, light);
+      programs.light_balls.set(LOCATION_RADIUS, 1.0f);
+      model.balls().draw(programs.light_balls, state);
+    }
     if (draw.particles) {
+      programs.light_particles.set(LOCATION_LIGHT, light);
+      programs.light_particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(model.spacing())));
       glUseProgram(programs.light_particles.id());
       points.bind();
       glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(model.particle_count()));
     }
-    glUseProgram(programs.light_springs.id());
     lines.bind();
     for (const SpringRun& run : model.springs()) {
       if (!draws(draw, run.constants.type)) continue;
+      glUseProgram(programs.light_springs.id());
+      programs.light_springs.set(LOCATION_LIGHT, light);
       programs.light_springs.set(LOCATION_RADIUS,
                                  static_cast<float>(spring_radius(model.spacing(), run.constants.type)));
       draw_lines(run);

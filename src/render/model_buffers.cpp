@@ -155,7 +155,7 @@ void ModelBuffers::compute_skin(const RenderPrograms& programs, const gl::Buffer
   const std::uint32_t fans = skin_vertices_ - mesh_vertices_;
   if (fans > 0) compute_fans(programs, particles);
   if (mesh_vertices_ == 0) return;
-  for (const gl::Program* const program : {&programs.mesh_skin, &programs.mesh_normals}) {
+  for (const RenderProgram* const program : {&programs.mesh_skin, &programs.mesh_normals}) {
     program->set(LOCATION_COUNT, mesh_vertices_);
     program->set(LOCATION_FIRST, fans);
   }

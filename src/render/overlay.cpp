@@ -47,14 +47,6 @@ int text_height_in(int picture_height) {
   return std::clamp(static_cast<int>(std::lround(picture_height / 42.0)), 11, 256);
 }
 
-Result<OverlayPainter> OverlayPainter::create(gl::Context& context, const gl::ShaderLibrary& library) {
-  OverlayPainter painter(context);
-  ASPIC_TRY(painter.program_,
-            gl::Program::graphics(context, library,
-                                  {.vertex = "render/overlay.vert", .fragment = "render/overlay.frag"}));
-  return painter;
-}
-
 std::vector<OverlayLine> fitted_lines(const std::vector<OverlayLine>& lines, float room,
                                       const std::function<float(std::string_view)>& width) {
   std::vector<OverlayLine> result;

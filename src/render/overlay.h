@@ -10,11 +10,11 @@
 
 #include "base/result.h"
 #include "gpu/buffer.h"
-#include "gpu/program.h"
 #include "gpu/texture.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
 #include "render/font.h"
+#include "render/programs.h"
 
 namespace aspic {
 
@@ -58,7 +58,8 @@ struct Legend {
 /// Draws text; knows nothing of scenes. Its context must outlive it and be current.
 class OverlayPainter {
  public:
-  static Result<OverlayPainter> create(gl::Context& context, const gl::ShaderLibrary& library);
+  OverlayPainter(gl::Context& context, RenderProgram program)
+      : context_(&context), program_(std::move(program)) {}
 
   /// Draws over `picture`, an sRGB image; text is `text_height` pixels high, if that is 0 a fixed fraction of
   /// the picture's height, 11 pixels at least.
@@ -73,7 +74,6 @@ class OverlayPainter {
   struct Vertex {
     std::array<float, 4> place, tint, shape;
   };
-  explicit OverlayPainter(gl::Context& context) : context_(&context) {}
   Status prepare_font(int pixel_height);
   void rectangle(float x, float y, float width, float height, const std::array<float, 4>& uv,
                  const std::array<float, 4>& tint, const std::array<float, 4>& shape);
@@ -88,7 +88,7 @@ class OverlayPainter {
             const std::array<float, 4>& tint);
 
   gl::Context* context_;
-  gl::Program program_;
+  RenderProgram program_;
   gl::Texture glyphs_;
   std::unique_ptr<Font> font_;
   gl::Buffer vertices_;

@@ -35,17 +35,15 @@ Vec3 point_at(const render_layout::Frame& frame, int column, int row, int side, 
 
 }  // namespace
 
-Result<std::unique_ptr<Picker>> Picker::create(gl::Context& context, const gl::ShaderLibrary& library) {
-  std::unique_ptr<Picker> p(new Picker);
-  const auto program = [&](const gl::GraphicsStages& stages) {
-    return gl::Program::graphics(context, library, stages);
-  };
-  ASPIC_TRY(p->surface_,
-            program({"render/pick_surface.vert", "render/pick_surface.frag", "render/pick_surface.geom"}));
-  ASPIC_TRY(p->particles_,
-            program({"render/particles.vert", "render/pick_particles.frag", "render/pick_particles.geom"}));
-  ASPIC_TRY(p->balls_, program({"render/balls.vert", "render/pick_balls.frag", "render/balls.geom"}));
-  ASPIC_TRY(p->terrain_, program({"render/screen.vert", "render/pick_terrain.frag"}));
+Result<std::unique_ptr<Picker>> Picker::create(const std::shared_ptr<RenderProgram::Source>& source) {
+  gl::Context& context = source->context;
+  std::unique_ptr<Picker> p(new Picker(context));
+  p->surface_ = RenderProgram(
+      source, {"render/pick_surface.vert", "render/pick_surface.frag", "render/pick_surface.geom"});
+  p->particles_ = RenderProgram(
+      source, {"render/particles.vert", "render/pick_particles.frag", "render/pick_particles.geom"});
+  p->balls_ = RenderProgram(source, {"render/balls.vert", "render/pick_balls.frag", "render/balls.geom"});
+  p->terrain_ = RenderProgram(source, {"render/screen.vert", "render/pick_terrain.frag"});
   ASPIC_TRY(p->frame_,
             gl::Buffer::create(context, "pick frame", sizeof(render_layout::Frame), gl::BufferKind::uniform));
   ASPIC_TRY(p->image_,
@@ -78,7 +76,7 @@ void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const D
                         const ViewSettings& view, const SectionPainter* section) const {
   const DrawSettings& draw = view.draw;
   if (view.terrain) draw_terrain(model, state.step);
-  if (draws_balls(draw)) buffers.balls().draw(balls_, state);
+  if (draws_balls(draw) && buffers.balls().shows(state)) buffers.balls().draw(balls_, state);
   if (section) section->draw(SectionUse::identities, model, buffers, *state.particles, view.colour);
   if (!draw.solid && !draw.particles && !draws_springs(drawn_springs(view))) return;
   const float radius =
@@ -134,7 +132,7 @@ void Picker::submit(std::uint64_t request, const Model& model, const ModelBuffer
   glReadPixels(0, 0, side, side, GL_RG_INTEGER, GL_UNSIGNED_INT, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  slot.fence = gl::fence(particles_.context());
+  slot.fence = gl::fence(context_);
   ++pending_;
 }
 

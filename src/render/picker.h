@@ -10,9 +10,9 @@
 #include "device/device_state.h"
 #include "gpu/context.h"
 #include "gpu/pixel_ring.h"
-#include "gpu/program.h"
 #include "render/layout.h"
 #include "render/model_buffers.h"
+#include "render/programs.h"
 #include "render/section.h"
 #include "render/targets.h"
 
@@ -46,8 +46,8 @@ inline constexpr int pick_reach = 12;
 /// Draws the images and reads them back. Its context must outlive it and be current.
 class Picker {
  public:
-  /// Errors: those of Program and Texture.
-  static Result<std::unique_ptr<Picker>> create(gl::Context& context, const gl::ShaderLibrary& library);
+  /// Errors: those of Texture.
+  static Result<std::unique_ptr<Picker>> create(const std::shared_ptr<RenderProgram::Source>& source);
   Picker(const Picker&) = delete;
   Picker& operator=(const Picker&) = delete;
 
@@ -76,13 +76,14 @@ class Picker {
     std::uint64_t request = 0;
     render_layout::Frame frame = {};
   };
-  Picker() = default;
+  explicit Picker(gl::Context& context) : context_(context) {}
   void draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
                   const ViewSettings& view, const SectionPainter* section) const;
   void draw_terrain(const Model& model, std::uint64_t step) const;
   void read(Slot& slot);
 
-  gl::Program surface_, particles_, balls_, terrain_;
+  gl::Context& context_;
+  RenderProgram surface_, particles_, balls_, terrain_;
   gl::Buffer frame_;
   gl::VertexArray nothing_;
   DrawableImage image_;

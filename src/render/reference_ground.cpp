@@ -2,17 +2,16 @@
 
 #include <glad/gl.h>
 
+#include <utility>
+
 #include "render/layout.h"
 #include "render/terrain_mesh.h"
 
 namespace aspic {
 
-Result<ReferenceGround> ReferenceGround::create(gl::Context& context, const gl::ShaderLibrary& library) {
+Result<ReferenceGround> ReferenceGround::create(gl::Context& context, RenderProgram program) {
   ReferenceGround made;
-  const gl::Define plane[] = {{"PLANE", "1"}};
-  ASPIC_TRY(made.program_,
-            gl::Program::graphics(context, library, {"render/terrain.vert", "render/reference_ground.frag"},
-                                  plane));
+  made.program_ = std::move(program);
   ASPIC_TRY(made.square_, DeviceMesh::create(context, "reference ground", square_mesh()));
   return made;
 }

@@ -36,13 +36,12 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   ASPIC_CHECK(here.status());
   auto parts = std::make_unique<Parts>();
   parts->context = &context;
-  parts->shaders = options.shaders;
   parts->policy = FramePolicy::create(context);
   if (parts->policy) parts->surroundings = std::make_unique<Parts::Surroundings>();
-  ASPIC_TRY(parts->programs, RenderPrograms::create(context, options.shaders));
-  ASPIC_TRY(parts->overlay, OverlayPainter::create(context, options.shaders));
+  parts->programs = RenderPrograms::create(context, options.shaders);
+  parts->overlay.emplace(context, parts->programs.overlay);
   ASPIC_TRY(parts->terrain, TerrainPainter::create(context));
-  ASPIC_TRY(parts->reference_ground, ReferenceGround::create(context, options.shaders));
+  ASPIC_TRY(parts->reference_ground, ReferenceGround::create(context, parts->programs.reference_ground));
   ASPIC_TRY(parts->lights, LightMaps::create(context));
   ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
   ASPIC_TRY(parts->frame,
@@ -82,22 +81,18 @@ Status Renderer::Parts::prepare_targets(int width, int height, int wanted_sample
 
 Status Renderer::Parts::prepare_highlight() {
   if (highlight) return {};
-  ASPIC_TRY(highlight, HighlightPainter::create(*context, shaders));
+  ASPIC_TRY(highlight, HighlightPainter::create(programs.source));
   return {};
 }
 
 Status Renderer::Parts::prepare_section() {
-  if (!section) {
-    ASPIC_TRY(section, SectionPainter::create(*context, shaders));
-  }
+  if (!section) section = std::make_unique<SectionPainter>(programs.source);
   return section->prepare(*model);
 }
 
 Status Renderer::Parts::draw_arrows(const ViewSettings& view, const ArrowSet& set) {
   if (set.arrows.empty()) return {};
-  if (!arrows) {
-    ASPIC_TRY(arrows, ArrowPainter::create(*context, shaders));
-  }
+  if (!arrows) arrows = std::make_unique<ArrowPainter>(programs.source);
   const Status drawn = arrows->draw(view, set);
   glDepthFunc(GL_LEQUAL);
   return drawn;
@@ -157,6 +152,7 @@ Status Renderer::Parts::start(int width, int height, const DeviceState& state,
   assert(model && state.particles && state.particles->context() == context);
   assert(state.particles->bytes() >= sizeof(layout::Particle) * model->particle_count());
   const ViewSettings& view = options.view;
+  programs.start(*model, view, options.shadows);
   ASPIC_CHECK(prepare_targets(width, height, options.samples));
   if (options.highlight) ASPIC_CHECK(prepare_highlight());
   if (view.cut.on()) ASPIC_CHECK(prepare_section());
@@ -187,7 +183,7 @@ Status Renderer::Parts::start(int width, int height, const DeviceState& state,
 /// The picture is complete.
 Status Renderer::Parts::finish() {
   if (profiler) profiler->end();
-  Status written = drawing->written;
+  const Status written = drawing->written ? programs.source->refused : drawing->written;
   drawing.reset();
   earlier.reset();
   leave();
@@ -247,7 +243,7 @@ Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
   ASPIC_CHECK(here.status());
   assert(p.drawn_state);
   if (!p.picker) {
-    ASPIC_TRY(p.picker, Picker::create(*p.context, p.shaders));
+    ASPIC_TRY(p.picker, Picker::create(p.programs.source));
   }
   p.picker->submit(++p.picks, *p.model, *p.buffers, *p.drawn_state, p.drawn_view,
                    p.drawn_view.cut.on() ? p.section.get() : nullptr, p.drawn_frame, place);
@@ -272,6 +268,7 @@ Result<QuantityRange> Renderer::range_of(const DeviceState& state, const ViewSet
   const FrameContent content = {view, alone, p.has(SurfaceStyle::flesh), false, state.step, 0.0f};
   p.bind_frame(frame_block(*p.model, Camera(view.camera, 1, 1), 1, 1, content));
   p.buffers->compute_quantity(p.programs, state);
+  ASPIC_CHECK(p.programs.source->refused);
   return p.measured_range(view);
 }
 

@@ -67,8 +67,8 @@ struct PictureOptions {
 /// the context that it changes it leaves as OpenGL starts with, bindings excepted.
 class Renderer {
  public:
-  /// Compiles the shaders and makes the textures. Errors: no_device (a shader is refused), io (a shader file
-  /// is missing), scene_rejected (no device memory).
+  /// Makes the textures. Shaders are compiled by the pictures that need them first. Error (scene_rejected):
+  /// no device memory.
   static Result<std::unique_ptr<Renderer>> create(gl::Context& context, const RendererOptions& options = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -96,8 +96,9 @@ class Renderer {
   Status turn_balls(const DeviceState& state, TurnedBalls& balls);
 
   /// Draws width × height pixels of a state of the model. Balls appear turned by what they have rotated since
-  /// the model was set, as far as the pictures drawn since then tell. Legal after set_model. Error:
-  /// scene_rejected or no_device, a picture of this size cannot be made.
+  /// the model was set, as far as the pictures drawn since then tell. Legal after set_model. Errors:
+  /// scene_rejected or no_device, a picture of this size cannot be made; no_device, a shader is refused; io,
+  /// a shader file is missing.
   Status draw(int width, int height, const DeviceState& state, const PictureOptions& options);
 
   /// Begins to draw the same picture in parts, so that a window need not wait for all of it: the picture last

@@ -72,7 +72,6 @@ struct Renderer::Parts {
   std::unique_ptr<FramePolicy> policy;  // null: hardware
   class Surroundings;
   std::unique_ptr<Surroundings> surroundings;  // where there is a policy
-  gl::ShaderLibrary shaders;
   // Of the picture last drawn, for what is asked about it afterwards.
   std::optional<DeviceState> drawn_state;
   render_layout::Frame drawn_frame = {};

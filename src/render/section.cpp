@@ -63,21 +63,17 @@ SkinsCut::~SkinsCut() {
   if (on_) glDisable(GL_CLIP_DISTANCE0);
 }
 
-Result<std::unique_ptr<SectionPainter>> SectionPainter::create(gl::Context& context,
-                                                               const gl::ShaderLibrary& library) {
-  std::unique_ptr<SectionPainter> painter(new SectionPainter(context));
-  const auto drawing = [&](std::string_view fragment, std::span<const gl::Define> defines = {}) {
-    return gl::Program::graphics(context, library, {"render/section.vert", fragment, "render/section.geom"},
-                                 defines);
+SectionPainter::SectionPainter(const std::shared_ptr<RenderProgram::Source>& source)
+    : context_(&source->context) {
+  const auto drawing = [&](std::string_view fragment, std::vector<gl::Define> defines = {}) {
+    return RenderProgram(source, {"render/section.vert", fragment, "render/section.geom"},
+                         std::move(defines));
   };
-  const gl::Define picked[] = {{"PICKED", "1"}};
-  ASPIC_TRY(painter->crossed_, gl::Program::compute(context, library, "render/section.comp"));
-  const gl::Define listed[] = {{"LISTED_CELLS", "1"}};
-  ASPIC_TRY(painter->crossed_listed_, gl::Program::compute(context, library, "render/section.comp", listed));
-  ASPIC_TRY(painter->colour_, drawing("render/section.frag"));
-  ASPIC_TRY(painter->thickness_, drawing("render/thickness.frag"));
-  ASPIC_TRY(painter->identities_, drawing("render/pick_section.frag", picked));
-  return painter;
+  crossed_ = RenderProgram(source, {.compute = "render/section.comp"});
+  crossed_listed_ = RenderProgram(source, {.compute = "render/section.comp"}, {{"LISTED_CELLS", "1"}});
+  colour_ = drawing("render/section.frag");
+  thickness_ = drawing("render/thickness.frag");
+  identities_ = drawing("render/pick_section.frag", {{"PICKED", "1"}});
 }
 
 Status SectionPainter::list_cells(const Model& model) {
@@ -121,13 +117,13 @@ Status SectionPainter::prepare(const Model& model) {
   return {};
 }
 
-void SectionPainter::draw_body(const gl::Program& program, const Model& model, std::size_t number,
+void SectionPainter::draw_body(const RenderProgram& program, const Model& model, std::size_t number,
                                const gl::Buffer& particles) const {
   const Body& body = model.bodies[number];
   const std::uint32_t cells = cells_of(body);
   if (cells == 0) return;
   std::vector<gl::Binding> bindings = {{BINDING_PARTICLES, &particles}, {BINDING_SECTION, &tetrahedra_}};
-  const gl::Program& crossed = body.box() ? crossed_ : crossed_listed_;
+  const RenderProgram& crossed = body.box() ? crossed_ : crossed_listed_;
   std::array<std::uint32_t, 4> size = {};
   if (body.box()) {
     std::ranges::copy(body.box()->particles, size.begin());
@@ -156,9 +152,9 @@ void SectionPainter::draw_body(const gl::Program& program, const Model& model, s
 void SectionPainter::draw(SectionUse use, const Model& model, const ModelBuffers& buffers,
                           const gl::Buffer& particles, ViewColour colour) const {
   if (cells_ == 0) return;
-  const gl::Program& program = use == SectionUse::colour      ? colour_
-                               : use == SectionUse::thickness ? thickness_
-                                                              : identities_;
+  const RenderProgram& program = use == SectionUse::colour      ? colour_
+                                 : use == SectionUse::thickness ? thickness_
+                                                                : identities_;
   const gl::VertexArray array =
       buffers.listed_array(particles, tetrahedra_, places_.bytes() > 0 ? &places_ : nullptr);
   array.bind();

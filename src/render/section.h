@@ -9,9 +9,9 @@
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/buffer.h"
-#include "gpu/program.h"
 #include "model/model.h"
 #include "render/model_buffers.h"
+#include "render/programs.h"
 
 namespace aspic {
 
@@ -41,9 +41,7 @@ class SkinsCut {
 /// Its context must outlive it and be current.
 class SectionPainter {
  public:
-  /// Errors: those of Program.
-  static Result<std::unique_ptr<SectionPainter>> create(gl::Context& context,
-                                                        const gl::ShaderLibrary& library);
+  explicit SectionPainter(const std::shared_ptr<RenderProgram::Source>& source);
 
   /// Makes room for the cells of a model that are looked at together, at most 4 MiB. Error (scene_rejected):
   /// no device memory.
@@ -54,15 +52,14 @@ class SectionPainter {
             ViewColour colour) const;
 
  private:
-  explicit SectionPainter(gl::Context& context) : context_(&context) {}
-  void draw_body(const gl::Program& program, const Model& model, std::size_t body,
+  void draw_body(const RenderProgram& program, const Model& model, std::size_t body,
                  const gl::Buffer& particles) const;
 
   /// Corners and places of lattices whose cells are not all full, if they are not those listed before.
   Status list_cells(const Model& model);
 
   gl::Context* context_;
-  gl::Program crossed_, crossed_listed_, colour_, thickness_, identities_;
+  RenderProgram crossed_, crossed_listed_, colour_, thickness_, identities_;
   // By body: its particles, and its lattice if that is listed.
   std::vector<std::pair<std::uint32_t, std::optional<Lattice>>> lattices_;
   std::vector<gl::Buffer> corners_;  // by body, of its full cells

@@ -50,12 +50,12 @@ Status TerrainPainter::set_terrain(gl::Context& context, const std::vector<Terra
   return {};
 }
 
-void TerrainPainter::draw_meshes(const gl::Program& program, const std::vector<Terrain>& terrain,
+void TerrainPainter::draw_meshes(const RenderProgram& program, const std::vector<Terrain>& terrain,
                                  bool glass) const {
-  glUseProgram(program.id());
   for (std::size_t i = 0; i < terrain.size(); ++i) {
     const PlacedMesh& placed = meshes_[i];
     if (placed.mesh.empty() || terrain_row(terrain[i].shape).glass != glass) continue;
+    glUseProgram(program.id());
     if (!glass) aspic::set_terrain(program, terrain[i]);
     program.set(LOCATION_OFFSET, four(terrain[i].geometry.vectors[0] - placed.place, 0.0));
     placed.mesh.draw();
@@ -135,18 +135,21 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
     // The square lies around what the camera looks at and reaches as far as it sees.
     const Vec3 middle = camera.target - above(camera.target) * flat.normal;
     const double reach = 28.0 * static_cast<double>(lens.target_distance());
-    for (const gl::Program* program : {&plain, &shadowed, &programs.shade[0], &programs.shade[1]}) {
-      program->set(LOCATION_PLANE_POINT, four(middle, reach));
-      program->set(LOCATION_PLANE_NORMAL, four(flat.normal, 0.0));
-    }
-    for (const gl::Program* program : {&plain, &shadowed})
-      if (cut) aspic::set_terrain(*program, t);
+    const auto place = [&](const RenderProgram& program) {
+      program.set(LOCATION_PLANE_POINT, four(middle, reach));
+      program.set(LOCATION_PLANE_NORMAL, four(flat.normal, 0.0));
+    };
     if (planes != Planes::shadows_alone) {
+      place(plain);
+      if (cut) aspic::set_terrain(plain, t);
       glUseProgram(plain.id());
       square_.draw();
     }
     glDisable(GL_BLEND);
     if (planes == Planes::solid || from_behind) continue;
+    place(shadowed);
+    if (cut) aspic::set_terrain(shadowed, t);
+    for (const RenderProgram& shade : programs.shade) place(shade);
     draw_shadowed(programs, shadowed, *targets);
   }
   glBindVertexArray(0);

@@ -54,7 +54,7 @@ class TerrainPainter {
   void draw_solid_meshes(const RenderPrograms& programs, const std::vector<Terrain>& terrain) const;
   void draw_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain, bool far_side) const;
   /// The bounded surfaces of solid terrain, or of glass.
-  void draw_meshes(const gl::Program& program, const std::vector<Terrain>& terrain, bool glass) const;
+  void draw_meshes(const RenderProgram& program, const std::vector<Terrain>& terrain, bool glass) const;
   /// The surface of one terrain; without one it is empty.
   struct PlacedMesh {
     Vec3 place;  ///< vector 0 of the geometry it was made with
