@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "gpu/canary.h"
+#include "gpu/program_files.h"
 #include "run/capacity.h"
 #include "run/window_host.h"
 
@@ -51,12 +52,23 @@ std::string memory_words(const std::optional<std::uint64_t>& free_bytes) {
   return human_bytes(*free_bytes) + " free";
 }
 
+Json json_of(const gl::ProgramFiles& files) {
+  if (files.folder().empty()) return {};
+  return {{"folder", files.folder().string()}, {"bytes", files.bytes()}};
+}
+
+std::string words_for(const gl::ProgramFiles& files) {
+  if (files.folder().empty()) return "none (ASPIC_SHADER_CACHE is off, or there is no home directory)";
+  return fmt::format("{}, {}", printable_line(files.folder().string()), human_bytes(files.bytes()));
+}
+
 }  // namespace
 
 Status execute(const InfoOptions& options) {
   const std::vector<gl::EglDevice> devices = gl::list_devices();
   AutomaticChoice automatic = choose_automatically({});
   const std::string_view chosen = automatic.row->name;
+  const gl::ProgramFiles shader_cache(gl::program_folder());
   // The device that --backend gpu would take: the hardware found just now, or whatever else there is.
   std::shared_ptr<gl::Context> context = std::move(automatic.context);
   std::string no_context;
@@ -88,6 +100,7 @@ Status execute(const InfoOptions& options) {
                                {"gpu_free_bytes", or_null(free_memory)},
                                {"gpu_error", context ? Json() : Json(no_context)},
                                {"arithmetic", arithmetic},
+                               {"shader_cache", json_of(shader_cache)},
                                {"auto", chosen},
                                {"auto_reason", automatic.reason},
                                {"auto_detail", or_null(automatic.detail)}}));
@@ -107,6 +120,7 @@ Status execute(const InfoOptions& options) {
   } else {
     text += fmt::format("\nNo usable GL device: {}\n", no_context);
   }
+  text += fmt::format("\nShader cache: {}\n", words_for(shader_cache));
   text += fmt::format("\nBackend auto: {}, since {}.\n", chosen, automatic.reason);
   if (!automatic.detail.empty()) text += automatic.detail + "\n";
   return print_text(text);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdlib>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -58,6 +59,14 @@ CLI::App* add_command(CLI::App& parent, const char* name, const char* summary, c
 
 void add_json(CLI::App* c, bool& json, const char* help = "result on stdout as JSON") {
   c->add_flag("--json", json, help);
+}
+
+/// Of commands that may take a device. Processes that they start take it on.
+CLI::App* with_shader_cache(CLI::App* c) {
+  c->add_flag_callback(
+      "--no-shader-cache", [] { ::setenv("ASPIC_SHADER_CACHE", "off", 1); },
+      "compile all shaders again, and keep none for the next start");
+  return c;
 }
 
 void add_overrides(CLI::App* c, std::vector<std::string>& overrides) {
@@ -290,19 +299,19 @@ CommandTable::CommandTable(Finish finish)
   app.footer(main_examples);
   app.set_version_flag("--version", "aspic " ASPIC_VERSION);
   app.require_subcommand(1);
-  on(add_run(app, run, raw), [this] { return finish_run(run, raw); });
-  on(add_view(app, view, raw), [this] { return finish_view(view, raw); });
-  on(add_compare(app, compare, raw), [this] { return finish_compare(compare, raw); });
-  on(add_bench(app, bench, raw), [this] { return finish_bench(bench, raw); });
-  on(add_sweep(app, sweep, raw), [this] { return finish_sweep(sweep, raw); });
-  on(add_report(app, report), [this] { return Command(report); });
-  on(add_verify(app, verify), [this] { return Command(verify); });
+  on(with_shader_cache(add_run(app, run, raw)), [this] { return finish_run(run, raw); });
+  on(with_shader_cache(add_view(app, view, raw)), [this] { return finish_view(view, raw); });
+  on(with_shader_cache(add_compare(app, compare, raw)), [this] { return finish_compare(compare, raw); });
+  on(with_shader_cache(add_bench(app, bench, raw)), [this] { return finish_bench(bench, raw); });
+  on(with_shader_cache(add_sweep(app, sweep, raw)), [this] { return finish_sweep(sweep, raw); });
+  on(with_shader_cache(add_report(app, report)), [this] { return Command(report); });
+  on(with_shader_cache(add_verify(app, verify)), [this] { return Command(verify); });
   const auto scenes = add_scene(app, list, show, check, import);
   on(scenes[0], [this] { return Command(list); });
   on(scenes[1], [this] { return Command(show); });
   on(scenes[2], [this] { return Command(check); });
   on(scenes[3], [this] { return Command(import); });
-  on(add_info(app, info), [this] { return Command(info); });
+  on(with_shader_cache(add_info(app, info)), [this] { return Command(info); });
 }
 
 void CommandTable::on(CLI::App* command, std::function<Result<Command>()> complete) {

@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "cli/process.h"
+#include "support/temporary_directory.h"
 
 namespace aspic {
 namespace {
@@ -342,6 +343,23 @@ TEST(Usage, AutoHasOneReasonEverywhere) {
   Words beside = run;
   beside.insert(beside.end(), {"--beside", "h=0.002"});
   EXPECT_EQ(test::json_member(aspic(beside, software).out, "backend_reason"), reason);
+}
+
+TEST(Usage, ShaderCacheIsFilledWhereItIsNotRefused) {
+  const test::TemporaryDirectory cache;
+  const test::ProcessOptions software = {
+      {{"ASPIC_EGL_DEVICE", "software"}, {"ASPIC_SHADER_CACHE", cache.path().string()}}, "", {}};
+  Words run = {"run", "cube-plane", "--backend", "gpu", "--steps", "1", "--json", "--no-shader-cache"};
+  const std::string hash = test::json_member(aspic(run, software).out, "state_hash");
+  EXPECT_EQ(cache.entries(), 0u);
+  EXPECT_THAT(aspic({"info", "--no-shader-cache"}, software).out, HasSubstr("Shader cache: none"));
+  run.pop_back();
+  EXPECT_EQ(test::json_member(aspic(run, software).out, "state_hash"), hash);
+  const std::size_t programs = cache.entries();
+  EXPECT_GE(programs, 2u);
+  EXPECT_EQ(test::json_member(aspic(run, software).out, "state_hash"), hash);
+  EXPECT_EQ(cache.entries(), programs);
+  EXPECT_THAT(aspic({"info"}, software).out, HasSubstr("Shader cache: " + cache.path().string() + ", "));
 }
 
 TEST(Usage, ThreadsOfTheEnvironmentMustBeANumber) {
