@@ -56,9 +56,12 @@ class Folder:
         return {name[:-5] for name in names if name.endswith(".json") and not name.startswith(".")}
 
     def read(self, key: str) -> Row | None:
-        """A run; None where there is none or its file is damaged: then it is made again."""
+        """A run; None where there is none or its file is damaged or no regular file: then it is made again."""
+        path = self._run(key, "json")
+        if not os.path.isfile(path):  # opening a pipe would wait for its writer
+            return None
         try:
-            with open(self._run(key, "json"), encoding="utf-8") as file:
+            with open(path, encoding="utf-8") as file:
                 row = json.load(file)
         except (OSError, ValueError, RecursionError):
             return None

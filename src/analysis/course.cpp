@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "model/counts.h"
+#include "model/steps.h"
 #include "model/terrain.h"
 
 namespace aspic {
@@ -93,7 +94,7 @@ CourseSummary Course::summary() const {
 }
 
 std::uint64_t sample_stride(double timestep, double interval) {
-  return static_cast<std::uint64_t>(std::max(1.0, std::round(interval / timestep)));
+  return std::max<std::uint64_t>(1, nearest_step(interval, timestep));
 }
 
 }  // namespace aspic

@@ -32,10 +32,15 @@ void Losses::tell(const std::vector<Error>& failures) {
 Status lost_error(const std::vector<Error>& failures, bool others) {
   if (failures.empty()) return {};
   std::string text;
-  for (const Error& failure : failures)
+  ErrorCode code = closed_pipe;
+  for (const Error& failure : failures) {
+    if (failure.code == closed_pipe) continue;
+    if (text.empty()) code = failure.code;
     text += (text.empty() ? "" : "\n") + worded(failure, FrontEnd::command_line);
+  }
+  if (text.empty()) return Error{closed_pipe, ""};
   if (others) text += " All other files of the run were completed.";
-  return Error{failures.front().code, text};
+  return Error{code, text};
 }
 
 // A State takes as much memory as all of a solver's: one is held while there are states to look at, and none

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,12 +12,14 @@
 #include <cerrno>
 #include <climits>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <thread>
 #include <utility>
 
 #include "base/end_request.h"
 #include "base/printable.h"
+#include "io/console.h"
 
 namespace aspic {
 namespace {
@@ -25,30 +28,60 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
-// Paths of temporary files, readable by a signal handler: fixed storage, published by a lock-free flag.
+// Paths of temporary files, readable by a signal handler: fixed storage, published by a lock-free state.
 struct TemporarySlot {
-  std::atomic<int> state{0};  // 0 free, 1 being written, 2 published
+  enum State { free, opening, open };
+  std::atomic<int> state{free};
   char path[PATH_MAX] = {};
 };
-std::array<TemporarySlot, 16> temporary_slots;
-static_assert(std::atomic<int>::is_always_lock_free);
+std::array<TemporarySlot, 64> temporary_slots;
+std::atomic<bool> removing{false};  // remove_temporary_files() was called: no more are made
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 /// Nothing (−1) when all slots are taken or the path is too long: the file is then removed by its destructor
 /// only.
 int remember_temporary(const std::string& path) {
   if (path.size() >= PATH_MAX) return -1;
   for (std::size_t i = 0; i < temporary_slots.size(); ++i) {
-    int expected = 0;
-    if (!temporary_slots[i].state.compare_exchange_strong(expected, 1)) continue;
+    int expected = TemporarySlot::free;
+    if (!temporary_slots[i].state.compare_exchange_strong(expected, TemporarySlot::opening)) continue;
     std::memcpy(temporary_slots[i].path, path.c_str(), path.size() + 1);
-    temporary_slots[i].state.store(2);
     return static_cast<int>(i);
   }
   return -1;
 }
 
-void forget_temporary(int slot) {
-  if (slot >= 0) temporary_slots[static_cast<std::size_t>(slot)].state.store(0);
+void set_state(int slot, TemporarySlot::State state) {
+  if (slot >= 0) temporary_slots[static_cast<std::size_t>(slot)].state.store(state);
+}
+
+/// While one lives, the signals that end the program are handled by other threads, or later.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t ends;
+    sigemptyset(&ends);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ends, number);
+    ::pthread_sigmask(SIG_BLOCK, &ends, &before_);
+  }
+  ~SignalsHeld() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_ = {};
+};
+
+/// Opens a new temporary file, which remove_temporary_files() removes whenever it is called. Returns its
+/// descriptor, or −1 with errno.
+int open_temporary(const std::string& path, int& slot) {
+  const SignalsHeld held;
+  slot = remember_temporary(path);
+  const int descriptor = removing ? -1 : ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (removing && descriptor < 0) errno = EINTR;
+  set_state(slot, descriptor < 0 ? TemporarySlot::free : TemporarySlot::open);
+  if (descriptor < 0) slot = -1;
+  return descriptor;
 }
 
 std::string directory_of(const std::string& path) {
@@ -116,7 +149,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Overwrite overwri
   const std::string directory = directory_of(file.target_);
   for (int attempt = 0; file.descriptor_ < 0; ++attempt) {
     file.temporary_ = fmt::format("{}/.aspic-{}-{}.tmp", directory, ::getpid(), counter++);
-    file.descriptor_ = ::open(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    file.descriptor_ = open_temporary(file.temporary_, file.slot_);
     if (file.descriptor_ < 0 && (errno != EEXIST || attempt == 1000)) {
       const int reason = errno;
       std::error_code unread;
@@ -126,7 +159,6 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Overwrite overwri
                         reason);
     }
   }
-  file.slot_ = remember_temporary(file.temporary_);
   if (exists) (void)::fchmod(file.descriptor_, present.st_mode & 07777);
   return file;
 }
@@ -157,12 +189,16 @@ void AtomicFile::discard() noexcept {
   descriptor_ = -1;
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
-  forget_temporary(std::exchange(slot_, -1));
+  set_state(std::exchange(slot_, -1), TemporarySlot::free);
 }
 
 Error AtomicFile::give_up(int reason) {
+  struct stat own = {}, output = {};
+  const bool is_output = reason == EPIPE && ::fstat(descriptor_, &own) == 0 &&
+                         ::fstat(STDOUT_FILENO, &output) == 0 && own.st_dev == output.st_dev &&
+                         own.st_ino == output.st_ino;
   discard();
-  return file_error("write", path_, reason);
+  return is_output ? Error{closed_pipe, ""} : file_error("write", path_, reason);
 }
 
 Status AtomicFile::require_open() const {
@@ -238,7 +274,7 @@ Status AtomicFile::commit() {
     return named;
   }
   temporary_.clear();
-  forget_temporary(std::exchange(slot_, -1));
+  set_state(std::exchange(slot_, -1), TemporarySlot::free);
   const int directory = ::open(directory_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (directory >= 0) {
     // The content is safe already; whether the name survives a power cut is all that this decides.
@@ -249,8 +285,12 @@ Status AtomicFile::commit() {
 }
 
 void remove_temporary_files() noexcept {
+  removing = true;
   for (TemporarySlot& slot : temporary_slots) {
-    if (slot.state.load() == 2) ::unlink(slot.path);
+    // Another thread is about to open it, or this one failed while it was.
+    constexpr timespec nap = {0, 1'000'000};
+    for (int n = 0; n < 1000 && slot.state.load() == TemporarySlot::opening; ++n) ::nanosleep(&nap, nullptr);
+    if (slot.state.load() != TemporarySlot::free) ::unlink(slot.path);
   }
 }
 

@@ -67,8 +67,8 @@ class AtomicFile {
 /// exist yet. The path itself where a link leads in a circle.
 std::string written_path(const std::string& path);
 
-/// Removes the temporary files of this process that are not committed yet. Safe to call from a signal
-/// handler.
+/// Removes the temporary files of this process that are not committed yet; create() makes no more. For a
+/// process that is about to end. Safe to call from a signal handler.
 void remove_temporary_files() noexcept;
 
 }  // namespace aspic

@@ -15,6 +15,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -152,9 +153,23 @@ int spawn(const std::vector<std::string>& arguments, const Streams& streams, cha
   return failed;
 }
 
-/// All of a group; the first process alone where that is all there is.
-void kill_group(pid_t pid) {
-  if (::kill(-pid, SIGKILL) != 0) ::kill(pid, SIGKILL);
+/// To all of a group; to the first process alone where that is all there is.
+void signal_group(pid_t pid, int number) {
+  if (::kill(-pid, number) != 0) ::kill(pid, number);
+}
+
+/// Ends all of a group. Its first process, which may have temporary files to remove, is asked to end and has
+/// half a second for it; its end is left for waitpid(). Safe to call from a signal handler.
+void end_group(pid_t pid) {
+  signal_group(pid, SIGTERM);
+  constexpr timespec nap = {0, 5'000'000};
+  siginfo_t ended = {};
+  for (int n = 0; n < 100; ++n) {
+    if (::waitid(P_PID, static_cast<id_t>(pid), &ended, WEXITED | WNOHANG | WNOWAIT) != 0) break;
+    if (ended.si_pid == pid) break;
+    ::nanosleep(&nap, nullptr);
+  }
+  signal_group(pid, SIGKILL);
 }
 
 /// Ends it where `over` says so, which is asked ten times a second.
@@ -173,7 +188,7 @@ ChildProcess::End wait_for(pid_t pid, const Over& over) {
     slept = 0ms;
     if (!over()) continue;
     end.stalled = true;
-    kill_group(pid);
+    signal_group(pid, SIGKILL);
   }
   if (waited < 0) return end;  // end_child_processes() has waited for it: how it ended is not known
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
@@ -294,7 +309,7 @@ std::optional<std::string> ChildProcess::line() {
 }
 
 void ChildProcess::kill() const {
-  if (pid_ > 0) kill_group(pid_);
+  if (pid_ > 0) end_group(pid_);
 }
 
 ChildProcess::End ChildProcess::finish(std::optional<std::chrono::seconds> most) {
@@ -329,7 +344,7 @@ void end_child_processes() noexcept {
   for (std::atomic<pid_t>& place : running) {
     const pid_t pid = place.load();
     if (pid <= 0) continue;
-    kill_group(pid);
+    end_group(pid);
     (void)::waitpid(pid, nullptr, 0);
   }
 }

@@ -9,8 +9,9 @@
 
 namespace aspic {
 
-/// Whoever read stdout has ended, as head does when it has its lines. Nothing is said then, and the exit code
-/// is the one a shell gives to programs that the signal SIGPIPE ends.
+/// Whoever read stdout, or a file such as /dev/stdout that is stdout, has ended, as head does when it has its
+/// lines. Nothing is said then, and the exit code is the one a shell gives to programs that the signal
+/// SIGPIPE ends.
 inline constexpr auto closed_pipe = ErrorCode{141};
 
 /// Writes data to stdout and flushes. Errors: io, a full disk behind a redirection; closed_pipe, without a

@@ -131,8 +131,8 @@ int run_program(const std::function<int()>& work) {
   return failed;
 }
 
-InterruptGuard::InterruptGuard() {
-  signal_count = 0;
+InterruptGuard::InterruptGuard(At at_once) {
+  signal_count = at_once == At::first_signal ? 1 : 0;
   end_requested = false;
   struct sigaction action = {};
   action.sa_handler = on_signal;

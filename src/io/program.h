@@ -20,7 +20,10 @@ int run_program(const std::function<int()>& work);
 /// At most one may live at a time; the old handlers return with its end.
 class InterruptGuard {
  public:
-  InterruptGuard();
+  /// The signal at which the program ends at once: a process whose results nobody waits for has nothing to
+  /// complete after the first.
+  enum class At { first_signal, second_signal };
+  explicit InterruptGuard(At at_once = At::second_signal);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;

@@ -1,16 +1,11 @@
 #include "playback/common_clock.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "run/run_length.h"
 
 namespace aspic {
-
-std::uint64_t nearest_step(double time, double timestep) {
-  return static_cast<std::uint64_t>(std::llround(std::clamp(time / timestep, 0.0, 0x1p62)));
-}
 
 Result<std::uint64_t> as_long_as(const SimulationSettings& first, std::uint64_t steps,
                                  const SimulationSettings& run) {

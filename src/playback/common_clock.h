@@ -10,9 +10,6 @@
 
 namespace aspic {
 
-/// The step that is nearest to a time [s] of a run with this time step [s].
-std::uint64_t nearest_step(double time, double timestep);
-
 /// The step of a run that lasts as long as `steps` steps of `first`, to its nearest step. Error (usage): more
 /// steps than can be counted.
 Result<std::uint64_t> as_long_as(const SimulationSettings& first, std::uint64_t steps,

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+
+#include "model/steps.h"
 
 namespace aspic {
 
@@ -18,8 +19,9 @@ std::uint64_t FilmPace::take(std::uint64_t step, double timestep, double speed) 
     // The same times in steps of the new length. Rounded down: however the run rounds its own step, it
     // has not gone back.
     const double ratio = timestep_ / timestep;
-    last_taken_ = static_cast<std::uint64_t>(std::llround(static_cast<double>(last_taken_) * ratio));
-    last_seen_ = static_cast<std::uint64_t>(std::max(static_cast<double>(last_seen_) * ratio - 1.0, 0.0));
+    last_taken_ = nearest_step(static_cast<double>(last_taken_) * ratio, 1.0);
+    last_seen_ =
+        static_cast<std::uint64_t>(std::clamp(static_cast<double>(last_seen_) * ratio - 1.0, 0.0, 0x1p62));
   }
   timestep_ = timestep;
   speed_ = speed;

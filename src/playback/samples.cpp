@@ -17,7 +17,7 @@ constexpr std::size_t most_samples = 2000;
 std::uint64_t next_sample_step(std::uint64_t step, double timestep, std::uint64_t stride) {
   constexpr double interval = 0.02;  // s
   const double apart = interval < 2.0 * timestep ? 1.0 : interval / timestep;
-  const double steps = apart * static_cast<double>(stride);
+  const double steps = std::min(apart * static_cast<double>(stride), 0x1p62);
   // Beyond what a double counts in ones.
   if (step >> 52 != 0) return step + static_cast<std::uint64_t>(std::round(steps));
   double next = std::floor(static_cast<double>(step) / steps);

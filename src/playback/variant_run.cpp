@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "model/steps.h"
 #include "playback/common_clock.h"
 #include "playback/effect.h"
 
@@ -76,8 +77,7 @@ Status VariantRun::adopt_setup(const Simulation& leader) {
   Setup setup = {run->scene.model, leader.present().setup().thrown, leader.present().setup().pinned};
   const double ratio = leader.model().simulation.timestep / setup.settings.simulation.timestep;
   for (Ball& ball : setup.thrown)
-    ball.launch_step =
-        static_cast<std::uint64_t>(std::llround(static_cast<double>(ball.launch_step) * ratio));
+    ball.launch_step = nearest_step(static_cast<double>(ball.launch_step) * ratio, 1.0);
   if (!has_particles_of(leader)) setup.pinned.clear();
   const bool hands = setup.pinned != own.present().setup().pinned ||
                      setup.thrown.size() != own.present().setup().thrown.size();

@@ -11,6 +11,7 @@
 
 #include "aspic/version.h"
 #include "base/files.h"
+#include "base/printable.h"
 #include "io/atomic_file.h"
 #include "run/sweep_figures.h"
 
@@ -51,16 +52,10 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 ? name : "";
 }
 
-std::optional<Outcome> outcome_of(const std::string& name) {
-  for (const Outcome outcome : {Outcome::ok, Outcome::diverged, Outcome::rejected, Outcome::failed})
-    if (name == name_of(outcome)) return outcome;
-  return std::nullopt;
-}
-
 /// Throws nlohmann::json::exception where the file lacks something.
 std::optional<RunRow> row_in(const Json& file, const SweepRun& run) {
   if (file.at("key").get<std::string>() != run.key) return std::nullopt;
-  const auto outcome = outcome_of(file.at("outcome").get<std::string>());
+  const auto outcome = outcome_named(file.at("outcome").get<std::string>());
   if (!outcome || *outcome == Outcome::failed) return std::nullopt;
   RunRow row;
   row.outcome = *outcome;
@@ -99,14 +94,21 @@ Result<RunFolder> RunFolder::open(std::string path, const Scene& scene) {
   return RunFolder(std::move(path), name);
 }
 
-std::optional<RunRow> RunFolder::read(const SweepRun& run) const {
-  const auto text = read_regular_file(file_of(run), largest_run_file);
-  if (!text || text->size > largest_run_file) return std::nullopt;
+Result<std::optional<RunRow>> RunFolder::read(const SweepRun& run) const {
+  const std::string file = file_of(run);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    return fail(ErrorCode::io, "{} is a directory in the place of a run; move it, or give another --runs.",
+                printable_line(file));
+  const auto text = read_regular_file(file, largest_run_file);
+  std::optional<RunRow> row;
+  if (!text || text->size > largest_run_file) return row;
   try {
-    return row_in(Json::parse(text->content), run);
+    row = row_in(Json::parse(text->content), run);
   } catch (const nlohmann::json::exception&) {
-    return std::nullopt;
+    // damaged
   }
+  return row;
 }
 
 Status RunFolder::write(const SweepRun& run, const RunRow& row) const {
@@ -127,7 +129,10 @@ Status RunFolder::write(const SweepRun& run, const RunRow& row) const {
                      {"solver", row.solver},
                      {"seconds", row.seconds},
                      {"host", host_name()}};
-  ASPIC_TRY(auto out, AtomicFile::create(file_of(run), Overwrite::allow));
+  const std::string path = file_of(run);
+  // A pipe would be waited for.
+  if (is_device_or_pipe(path)) ::unlink(path.c_str());
+  ASPIC_TRY(auto out, AtomicFile::create(path, Overwrite::allow));
   ASPIC_CHECK(out.write(file.dump(1, ' ', true, Json::error_handler_t::replace) + "\n"));
   return out.commit();
 }

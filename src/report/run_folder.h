@@ -16,9 +16,9 @@ class RunFolder {
   /// The folder, made where there is none, with the scene that the runs differ from in it. Error (io).
   static Result<RunFolder> open(std::string path, const Scene& scene);
 
-  /// A run that is there. Nothing where there is none, where its file is damaged, and where it failed: then
-  /// it may succeed.
-  std::optional<RunRow> read(const SweepRun& run) const;
+  /// A run that is there. Nothing where there is none, where its file is damaged or no regular file, and
+  /// where it failed: then it may succeed. Error (io): a directory is in its place, which write() keeps.
+  Result<std::optional<RunRow>> read(const SweepRun& run) const;
   /// Keeps a run; one that is there is replaced. Error (io).
   Status write(const SweepRun& run, const RunRow& row) const;
 

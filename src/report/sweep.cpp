@@ -60,7 +60,8 @@ class Worker {
     if (folder_) {
       const SweepRun run = grid_run(grid, index);
       // It may have been kept before its process ended.
-      if (const auto kept = folder_->read(run)) return std::optional(sweep_row(grid, index, *kept));
+      if (const auto kept = folder_->read(run); kept && *kept)
+        return std::optional(sweep_row(grid, index, **kept));
       // Where that fails it is as if it had not been run, which is what the next sweep takes it for anyway.
       (void)folder_->write(run, lost);
     }
@@ -209,14 +210,16 @@ class KeptRows {
       if (plan.force) ::unlink(journal_path(plan.out).c_str());
       const std::string owner = fmt::format("{}, part {}/{}, grid {}", plan.description, plan.part.i,
                                             plan.part.n, plan.grid.identity());
-      ASPIC_TRY(auto journal, SweepJournal::open(plan.out, owner));
+      ASPIC_TRY(auto journal, SweepJournal::open(plan.out, owner, plan.grid));
       kept.rows_ = journal.rows();
       kept.journal_.emplace(std::move(journal));
       return kept;
     }
     ASPIC_TRY(auto folder, RunFolder::open(plan.runs, plan.grid.scene));
-    for (std::size_t i = plan.first(); i < plan.end() && !plan.force; ++i)
-      if (const auto row = folder.read(grid_run(plan.grid, i))) kept.rows_[i] = sweep_row(plan.grid, i, *row);
+    for (std::size_t i = plan.first(); i < plan.end(); ++i) {
+      ASPIC_TRY(const auto row, folder.read(grid_run(plan.grid, i)));
+      if (row && !plan.force) kept.rows_[i] = sweep_row(plan.grid, i, *row);
+    }
     kept.folder_.emplace(std::move(folder));
     return kept;
   }
@@ -293,8 +296,9 @@ Result<SweepCounts> run_sweep(const SweepPlan& plan, const InterruptGuard& inter
 }
 
 Status serve_sweep(const Grid& grid, const std::string& runs) {
+  const InterruptGuard ended_at_once(InterruptGuard::At::first_signal);
   // A run whose parent is gone would compute a row that nobody reads.
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   std::string identity, backend;
   unsigned threads = 0;
   std::cin >> identity >> backend >> threads;

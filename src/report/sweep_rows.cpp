@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <optional>
 #include <utility>
 
 #include "base/files.h"
@@ -71,11 +72,42 @@ std::string sweep_row(const Grid& grid, std::size_t index, const RunRow& row) {
   return csv_row(fields);
 }
 
+namespace {
+
+template <class T>
+bool is_number_or_empty(std::string_view text) {
+  T number = {};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return text.empty() || (error == std::errc() && stop == end);
+}
+
+/// The run of a row as sweep_row() writes it; nothing if it is none.
+std::optional<std::size_t> run_of_row(const Grid& grid, const std::string& row) {
+  std::size_t index = grid.size();
+  (void)std::from_chars(row.data(), row.data() + row.size(), index);
+  if (index >= grid.size()) return std::nullopt;
+  std::vector<std::string> first = {fmt::format("{}", index)};
+  for (std::string& value : grid.values(index)) first.push_back(std::move(value));
+  std::string start = csv_row(first);
+  start.back() = ',';
+  const std::vector<std::string> fields = csv_fields(row);
+  const std::size_t outcome = first.size(), steps = outcome + 2, hash = steps + 1 + figures_of({}).size();
+  if (!row.starts_with(start) || fields.size() != hash + 2 || csv_row(fields) != row ||
+      !outcome_named(fields[outcome]) || !is_number_or_empty<std::uint64_t>(fields[steps]))
+    return std::nullopt;
+  for (std::size_t i = steps + 1; i < fields.size(); ++i)
+    if (i != hash && !is_number_or_empty<double>(fields[i])) return std::nullopt;
+  return index;
+}
+
+}  // namespace
+
 std::string journal_path(const std::string& path) {
   return path + ".partial";
 }
 
-Result<SweepJournal> SweepJournal::open(const std::string& path, const std::string& owner) {
+Result<SweepJournal> SweepJournal::open(const std::string& path, const std::string& owner, const Grid& grid) {
   SweepJournal journal;
   journal.path_ = journal_path(path);
   journal.descriptor_ =
@@ -84,7 +116,7 @@ Result<SweepJournal> SweepJournal::open(const std::string& path, const std::stri
   if (::flock(journal.descriptor_, LOCK_EX | LOCK_NB) != 0)
     return fail(ErrorCode::io, "another aspic sweep is writing {}; give this one another --out.",
                 journal.path_);
-  ASPIC_CHECK(journal.read(owner));
+  ASPIC_CHECK(journal.read(owner, grid));
   return journal;
 }
 
@@ -136,7 +168,7 @@ class Lines {
 
 }  // namespace
 
-Status SweepJournal::read(const std::string& owner) {
+Status SweepJournal::read(const std::string& owner, const Grid& grid) {
   struct stat present = {};
   if (::fstat(descriptor_, &present) != 0) return file_error("read", path_, errno);
   if (!S_ISREG(present.st_mode))
@@ -149,11 +181,10 @@ Status SweepJournal::read(const std::string& owner) {
     ASPIC_TRY(auto line, lines.next());
     const bool ended = line.ends_with('\n');
     if (!ended && line.size() <= longest_line) break;
-    std::size_t index = 0;
-    const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), index);
-    const bool row = ended && number > 1 && error == std::errc() && *stop == ',' && index < most_runs;
-    if (!row && !(ended && number == 1))
-      return fail(ErrorCode::io, "{}:{}: not a sweep row; start over with --force.", path_, number);
+    const auto index = ended && number > 1 ? run_of_row(grid, line) : std::nullopt;
+    if (!index && !(ended && number == 1))
+      return fail(ErrorCode::io, "{}:{}: not a row of this sweep; start over with --force.",
+                  printable_line(path_), number);
     if (number == 1 && line != first) {
       line.pop_back();
       return fail(
@@ -164,7 +195,7 @@ Status SweepJournal::read(const std::string& owner) {
           printable_line(owner));
     }
     complete += static_cast<off_t>(line.size());
-    if (row) rows_[index] = std::move(line);
+    if (index) rows_[*index] = std::move(line);
   }
   if (complete < present.st_size && ::ftruncate(descriptor_, complete) != 0)
     return file_error("write", path_, errno);

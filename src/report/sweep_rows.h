@@ -37,9 +37,9 @@ std::string sweep_row(const Grid& grid, std::size_t index, const RunRow& row);
 class SweepJournal {
  public:
   /// Opens the journal next to the output `path`, or creates it, and reads its rows. `owner` is one line that
-  /// says which sweep it is. Errors: usage, it belongs to another sweep; io, another process is at it, it is
-  /// damaged, or its place cannot be written.
-  static Result<SweepJournal> open(const std::string& path, const std::string& owner);
+  /// says which sweep it is, of the runs of `grid`. Errors: usage, it belongs to another sweep; io, another
+  /// process is at it, it is damaged, or its place cannot be written.
+  static Result<SweepJournal> open(const std::string& path, const std::string& owner, const Grid& grid);
   SweepJournal(SweepJournal&& other) noexcept;
   SweepJournal& operator=(SweepJournal&&) = delete;
   ~SweepJournal();
@@ -53,7 +53,7 @@ class SweepJournal {
 
  private:
   SweepJournal() = default;
-  Status read(const std::string& owner);
+  Status read(const std::string& owner, const Grid& grid);
 
   std::string path_;
   int descriptor_ = -1;

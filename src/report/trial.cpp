@@ -4,14 +4,21 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <ctime>
+
+#include "model/steps.h"
 
 namespace aspic::report {
 
 std::string_view name_of(Outcome outcome) {
   constexpr std::string_view names[] = {"ok", "diverged", "rejected", "failed"};
   return names[static_cast<std::size_t>(outcome)];
+}
+
+std::optional<Outcome> outcome_named(std::string_view name) {
+  for (const Outcome outcome : {Outcome::ok, Outcome::diverged, Outcome::rejected, Outcome::failed})
+    if (name == name_of(outcome)) return outcome;
+  return std::nullopt;
 }
 
 TrialResult trial_error(const Error& error) {
@@ -59,8 +66,7 @@ Result<TrialResult> run_trial(SharedModel shared_model, const TrialOptions& opti
     if (options.stop && options.stop()) return Error{ErrorCode::interrupted, "interrupted."};
     std::uint64_t next = std::min(*steps, step + stride);
     if (result.pictures.size() < options.picture_times.size()) {
-      const auto wanted =
-          static_cast<std::uint64_t>(std::llround(options.picture_times[result.pictures.size()] / h));
+      const std::uint64_t wanted = nearest_step(options.picture_times[result.pictures.size()], h);
       if (wanted > step) next = std::min(next, wanted);
     }
     const auto before = std::chrono::steady_clock::now();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/course.h"
@@ -22,6 +23,8 @@ enum class Outcome {
   failed     ///< device, memory or process; it may succeed another time
 };
 std::string_view name_of(Outcome outcome);
+/// The outcome of that name; nothing if there is none.
+std::optional<Outcome> outcome_named(std::string_view name);
 
 struct TrialResult {
   Outcome outcome = Outcome::ok;

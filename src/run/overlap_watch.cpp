@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
 #include "analysis/body_overlap.h"
+#include "analysis/course.h"
 #include "aspic/run.h"
 #include "scene/follow.h"
 
@@ -100,7 +100,7 @@ std::string OverlapWatch::look(const State& state) {
 
 std::uint64_t OverlapWatch::next_step(std::uint64_t step) const {
   if (!parts_->touch) return std::numeric_limits<std::uint64_t>::max();
-  const auto every = static_cast<std::uint64_t>(std::max(1.0, std::round(interval / parts_->timestep)));
+  const std::uint64_t every = sample_stride(parts_->timestep, interval);
   return step + (every - step % every);
 }
 

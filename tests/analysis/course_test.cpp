@@ -67,5 +67,11 @@ TEST(Course, UpIsAgainstGravity) {
   EXPECT_EQ(course.samples().front().extent, 4.0);
 }
 
+TEST(SampleStride, IsBoundedWithTinyTimeSteps) {
+  EXPECT_EQ(sample_stride(0.01, 0.1), 10u);
+  EXPECT_EQ(sample_stride(1.0, 0.1), 1u);
+  for (const double h : {5e-21, 9e-22, 1e-300}) EXPECT_EQ(sample_stride(h, 0.1), std::uint64_t{1} << 62) << h;
+}
+
 }  // namespace
 }  // namespace aspic

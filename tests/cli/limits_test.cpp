@@ -47,7 +47,12 @@ TEST(Limits, MessagesAreNotWrittenIntoFilesWhereStreamsAreClosed) {
 TEST(Limits, AClosedPipeEndsTheProgramSilently) {
   test::ProcessOptions options;
   options.stdout_to_closed_pipe = true;
-  for (const Words& words : {Words{"scene", "show", "cube-plane"}, {"--help"}, {"scene", "list"}}) {
+  for (const Words& words :
+       {Words{"scene", "show", "cube-plane"},
+        {"--help"},
+        {"scene", "list"},
+        {"run", "cube-plane", "--backend", "reference", "--steps", "2", "--state", "/dev/stdout"},
+        {"run", "cube-plane", "--backend", "reference", "--steps", "2", "--series", "/dev/stdout"}}) {
     const auto run = aspic(words, options);
     EXPECT_EQ(run.exit_code, 141);
     EXPECT_THAT(run.err, IsEmpty());

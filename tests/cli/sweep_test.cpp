@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -289,6 +290,83 @@ TEST(Sweep, AFullDiskFailsRunsAndNotTheOthers) {
   EXPECT_THAT(full.out, HasSubstr("0 ok, 0 diverged, 0 rejected, 2 failed"));
   EXPECT_THAT(full.err, HasSubstr("Cannot write"));
   EXPECT_TRUE(std::filesystem::is_empty(dir.file("runs/runs")));
+}
+
+TEST(Sweep, LeavesNoTemporaryFilesWhenInterrupted) {
+  const test::TemporaryDirectory dir;
+  dir.write("one.toml", "schema = 1\n[[cube]]\nparticles-per-edge = 2\n");
+  int round = 0;
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGTERM}) {
+    const std::string folder = dir.file(fmt::format("runs-{}", round++));
+    test::Process running({"sweep", dir.file("one.toml"), "--backend", "cpu", "--vary", "k=500:4000:2000:log",
+                           "--steps", "1", "--runs", folder});
+    while (!std::filesystem::exists(folder + "/runs") || files_in(folder + "/runs").empty())
+      std::this_thread::yield();
+    running.send(signal);
+    EXPECT_EQ(running.wait().exit_code, 130);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      EXPECT_NE(entry.path().extension(), ".tmp") << "after signal " << signal;
+  }
+}
+
+TEST(Sweep, RefusesDamagedRowsOfItsJournal) {
+  const test::TemporaryDirectory dir;
+  const std::string out = dir.file("s.csv"), partial = out + ".partial";
+  const Words words = sweep(out);
+  {
+    test::Process running(words);
+    while (test::lines(content(partial)).size() < 2 && !std::filesystem::exists(out))
+      std::this_thread::yield();
+    running.send(SIGKILL);
+    ASSERT_EQ(running.wait().signal, SIGKILL);
+  }
+  const Words kept = test::lines(content(partial));
+  ASSERT_GE(kept.size(), 2u);
+  const std::string whole = kept[1], cut = whole.substr(0, whole.size() / 2);
+  const auto without_values = "0,1,2,3" + whole.substr(whole.find(",ok,"));
+  std::string other_outcome = whole;
+  other_outcome.replace(whole.find(",ok,"), 4, ",no,");
+  for (const std::string& row :
+       {std::string("0,2,3"), std::string("1,hello"), std::string("2,"), std::string("12,0.01,8000,midpoint"),
+        cut, without_values, other_outcome, whole + ",1"}) {
+    std::ofstream(partial) << kept[0] << '\n' << row << '\n';
+    const auto again = aspic(words);
+    EXPECT_EQ(again.exit_code, 6) << row;
+    EXPECT_THAT(again.err, HasSubstr("s.csv.partial:2: not a row of this sweep; start over with --force."))
+        << row;
+  }
+  std::ofstream(partial) << kept[0] << '\n' << whole << '\n';
+  EXPECT_EQ(aspic(words).exit_code, 0);
+}
+
+TEST(Sweep, ReplacesAPipeAndRefusesADirectoryInARunsPlace) {
+  const test::TemporaryDirectory dir;
+  const Words words = {"sweep",  "cube-plane",  "--steps", "2",
+                       "--vary", "mu=0.1,0.2",  "--set",   "cube[0].particles-per-edge=3",
+                       "--runs", dir.file("r"), "--json"};
+  ASSERT_EQ(aspic(words).exit_code, 0);
+  const std::string file = files_in(dir.file("r/runs"))[0];
+  std::filesystem::remove(file);
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  const auto again = aspic(words);
+  EXPECT_EQ(json_member(again.out, "ok"), "2") << again.err;
+  EXPECT_EQ(json_member(again.out, "resumed"), "1");
+  EXPECT_TRUE(std::filesystem::is_regular_file(file));
+
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);
+  const auto refused = aspic(words);
+  EXPECT_EQ(refused.exit_code, 6) << refused.out;
+  EXPECT_THAT(refused.err, HasSubstr("is a directory in the place of a run"));
+}
+
+TEST(Sweep, EndsWithTinyTimeSteps) {
+  const test::TemporaryDirectory dir;
+  const auto done =
+      aspic({"sweep", "cubes-stack", "--backend", "cpu", "--set", "cube[0].particles-per-edge=2", "--vary",
+             "h=1e-20,9e-22", "--steps", "3", "--out", dir.file("s.csv")});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("2 ok"));
 }
 
 TEST(Sweep, RejectedValuesAreRowsToo) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "model/steps.h"
+
 namespace aspic::test {
 namespace {
 

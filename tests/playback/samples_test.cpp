@@ -16,6 +16,12 @@
 namespace aspic {
 namespace {
 
+TEST(Samples, NextStepIsLaterWithTinyTimeSteps) {
+  for (const double h : {1e-19, 1e-21, 1e-38, 1e-300})
+    for (const std::uint64_t step : {std::uint64_t{0}, std::uint64_t{7}, std::uint64_t{1} << 53})
+      for (const std::uint64_t stride : {1u, 1000u}) EXPECT_GT(next_sample_step(step, h, stride), step) << h;
+}
+
 TEST(Samples, AddUpTheWorkOfActuatorsInAnyOrder) {
   const Model model = test::build(load_scene("worm")->model);
   const auto solver = test::solver_for(model);
