@@ -6,11 +6,12 @@
 #include <limits>
 
 #include "base/printable.h"
+#include "mesh/polygon.h"
 
 namespace aspic {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+constexpr std::string_view blanks = " \t\v\f", line_ends = "\r\n";
 
 }  // namespace
 
@@ -52,9 +53,9 @@ std::optional<std::int64_t> mesh_integer(std::string_view word) {
 
 std::string_view MeshWords::next() {
   while (!rest_.empty()) {
-    if (rest_.front() == '\n')
+    if (rest_.front() == '\n' || (rest_.front() == '\r' && !rest_.starts_with("\r\n")))
       ++line_;
-    else if (blanks.find(rest_.front()) == std::string_view::npos)
+    else if (rest_.front() != '\r' && blanks.find(rest_.front()) == std::string_view::npos)
       break;
     rest_.remove_prefix(1);
   }
@@ -65,7 +66,7 @@ std::string_view MeshWords::next() {
 }
 
 void MeshWords::skip_line() {
-  rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size()));
+  rest_.remove_prefix(std::min(rest_.find_first_of(line_ends), rest_.size()));
 }
 
 bool MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, Place place) {
@@ -79,9 +80,21 @@ bool MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, Place plac
     return true;
   }
   if (file_.mesh.triangles.size() + (corners.size() - 2) > most_mesh_triangles) return false;
+  if (corners.size() > 3) polygons_.push_back({file_.mesh.triangles.size(), corners.size() - 2});
   for (std::size_t i = 2; i < corners.size(); ++i)
     file_.mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
   return true;
+}
+
+void MeshBuilder::cut_polygons() {
+  TriangleMesh& mesh = file_.mesh;
+  std::size_t fans = 0;
+  for (const auto& [first, count] : polygons_)
+    if (!cut_polygon(mesh.vertices, std::span(mesh.triangles).subspan(first, count))) ++fans;
+  if (fans > 0)
+    add_note(fmt::format(
+        "concave faces of more than {} corners, which are covered by triangles from the first: {}",
+        most_cut_corners, fans));
 }
 
 std::optional<std::string> MeshBuilder::wrong_index() const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mesh/read_mesh.h"
 
@@ -59,6 +60,7 @@ class MeshBuilder {
     if (const auto wrong = wrong_index()) return error(largest_place_, *wrong);
     if (file_.mesh.triangles.empty()) return error(end, no_faces());
     note_short_faces();
+    cut_polygons();
     return std::move(file_);
   }
 
@@ -66,8 +68,14 @@ class MeshBuilder {
   std::optional<std::string> wrong_index() const;
   std::string no_faces() const;
   void note_short_faces();
+  void cut_polygons();
 
+  /// The triangles of a polygon of more than three corners.
+  struct Polygon {
+    std::size_t first, count;
+  };
   MeshFile file_;
+  std::vector<Polygon> polygons_;
   std::optional<std::uint32_t> largest_;
   Place largest_place_ = 0;
   std::size_t short_faces_ = 0;

@@ -7,6 +7,7 @@
 
 #include "base/embedded_file.h"
 #include "base/files.h"
+#include "base/lines.h"
 #include "base/out_of_memory.h"
 #include "base/printable.h"
 
@@ -43,6 +44,9 @@ Result<MeshFile> parse_mesh(std::string_view bytes, const std::string& file_name
         "{}: this is no kind of mesh that is read: those are {}; convert it, for instance with trimesh "
         "or Blender",
         printable_line(file_name), fmt::join(mesh_endings, ", "));
+  // A binary STL may begin with any byte.
+  if (is_utf16(bytes) && reader != parse_stl)
+    return fail(ErrorCode::scene_rejected, "{}: this is {}", printable_line(file_name), utf16_words);
   return unless_out_of_memory([&] { return reader(bytes, file_name); },
                               [&]() -> Result<MeshFile> {
                                 return fail(ErrorCode::io, "{}: there is not enough memory for this mesh.",

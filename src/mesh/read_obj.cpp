@@ -132,8 +132,7 @@ class ObjReader {
 }  // namespace
 
 Result<MeshFile> parse_obj(std::string_view text, const std::string& file_name) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  skip_byte_order_mark(text);
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
     return mesh_error_at_byte(file_name, zero,
                               "this is a binary file, not text: OBJ is text; export it again");

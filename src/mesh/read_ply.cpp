@@ -68,16 +68,20 @@ constexpr std::size_t most_elements = 64, most_properties = 256;
 
 class HeaderReader {
  public:
-  HeaderReader(std::string_view bytes, const std::string& file_name) : rest_(bytes), file_name_(file_name) {}
+  HeaderReader(std::string_view bytes, const std::string& file_name) : rest_(bytes), file_name_(file_name) {
+    skip_byte_order_mark(rest_);
+    const std::size_t end = rest_.find_first_of("\r\n");
+    if (end != std::string_view::npos && !rest_.substr(end).starts_with("\r\n")) line_end_ = rest_[end];
+  }
 
   Result<Header> read() {
     ++header_.lines;
-    if (trimmed(take_line(rest_)) != "ply")
+    if (trimmed(next_line()) != "ply")
       return error("the first line is not 'ply': this is no PLY, or it is damaged");
     bool formatted = false;
     while (!rest_.empty()) {
       ++header_.lines;
-      MeshWords words(take_line(rest_));
+      MeshWords words(next_line());
       const std::string_view key = words.next();
       if (key == "end_header") {
         if (!formatted) return error("the header names no format; it has a line such as 'format ascii 1.0'");
@@ -102,6 +106,14 @@ class HeaderReader {
   }
 
  private:
+  /// A binary body may begin with a byte that is another line end.
+  std::string_view next_line() {
+    const std::size_t end = std::min(rest_.find(line_end_), rest_.size());
+    const std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    return line;
+  }
+
   Status take_format(std::string_view word) {
     if (word == "ascii")
       header_.encoding = Encoding::ascii;
@@ -160,6 +172,7 @@ class HeaderReader {
   Error error(const std::string& what) const { return mesh_error_in_line(file_name_, header_.lines, what); }
 
   std::string_view rest_;
+  char line_end_ = '\n';  // the last character of one
   const std::string& file_name_;
   Header header_;
 };

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "base/lines.h"
 #include "mesh/mesh_text.h"
 
 namespace aspic {
@@ -41,7 +42,14 @@ Result<MeshFile> parse_binary(std::string_view bytes, const std::string& file_na
   };
   if (bytes.size() < header_bytes)
     return error(bytes.size(), "the file ends in its header of 84 bytes: it is cut short, or no STL");
-  const std::uint64_t count = number_at<std::uint32_t>(bytes, count_at);
+  std::uint64_t count = number_at<std::uint32_t>(bytes, count_at);
+  MeshBuilder mesh;
+  // Programs that write as they go leave it at 0.
+  if (const std::uint64_t rest = bytes.size() - header_bytes; count == 0 && rest % triangle_bytes == 0) {
+    count = rest / triangle_bytes;
+    if (count > 0)
+      mesh.add_note(fmt::format("byte {}: 0 triangles are named, and the file has {}", count_at, count));
+  }
   const std::uint64_t needed = header_bytes + count * triangle_bytes;
   if (needed > bytes.size())
     return error(
@@ -49,7 +57,6 @@ Result<MeshFile> parse_binary(std::string_view bytes, const std::string& file_na
         fmt::format("{} triangles are promised, which takes {} bytes, and the file has {}: it is cut "
                     "short; copy or export it again",
                     count, needed, bytes.size()));
-  MeshBuilder mesh;
   if (count > most_mesh_triangles) return error(count_at, too_many_triangles());
   for (std::size_t at = header_bytes; at < needed; at += triangle_bytes) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -125,9 +132,12 @@ Result<MeshFile> parse_stl(std::string_view bytes, const std::string& file_name)
   const bool full = bytes.size() >= header_bytes &&
                     bytes.size() == header_bytes + std::uint64_t{number_at<std::uint32_t>(bytes, count_at)} *
                                                        triangle_bytes;
-  MeshWords words(bytes);
-  if (!full && is_word(words.next(), "solid") && bytes.find('\0') == std::string_view::npos)
-    return AsciiReader(bytes, file_name).read();
+  if (!full && is_utf16(bytes))
+    return mesh_error_at_byte(file_name, 0, fmt::format("this is {}", utf16_words));
+  std::string_view text = bytes;
+  skip_byte_order_mark(text);
+  if (!full && is_word(MeshWords(text).next(), "solid") && text.find('\0') == std::string_view::npos)
+    return AsciiReader(text, file_name).read();
   return parse_binary(bytes, file_name);
 }
 

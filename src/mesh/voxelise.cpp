@@ -44,9 +44,10 @@ OccupancyGrid grid_around(const Vec3& extent, int cells) {
 }
 
 /// Fills the cells; returns how many are ambiguous.
-std::size_t fill(OccupancyGrid& grid, const WindingTree& tree) {
+std::size_t fill(OccupancyGrid& grid, const WindingTree& tree, const std::function<void(double)>& watch) {
   std::size_t ambiguous = 0;
   for (int i = 0; i < grid.cells[0]; ++i) {
+    if (watch) watch(static_cast<double>(i) / grid.cells[0]);
     for (int j = 0; j < grid.cells[1]; ++j) {
       for (int k = 0; k < grid.cells[2]; ++k) {
         const double w = std::abs(tree.at(grid.centre(i, j, k)));
@@ -99,7 +100,7 @@ Result<VoxelisedMesh> voxelise(const TriangleMesh& mesh, const VoxelisationSetti
   made.report.odd_size = settings.height <= 0.0 && (longest > 50.0 || longest < 1e-3);
 
   const WindingTree tree(made.skin);
-  const std::size_t ambiguous = fill(made.grid, tree);
+  const std::size_t ambiguous = fill(made.grid, tree, settings.watch);
   made.report.ambiguous = static_cast<double>(ambiguous) / static_cast<double>(made.grid.full.size());
   const MeshRepairs& r = made.report.repairs;
   if (made.report.ambiguous > most_ambiguous)

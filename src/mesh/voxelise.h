@@ -1,5 +1,6 @@
 #pragma once
 // A mesh as a body of cells.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct VoxelisationSettings {
   double height = 0.0;    ///< of the mesh's box [m], to which the mesh is scaled; 0: its numbers are metres
   UpAxis up = UpAxis::y;  ///< of the file
   Pieces pieces = Pieces::largest;
+  std::function<void(double)> watch = {};  ///< called with the share of the cells that is done
 };
 inline constexpr int most_mesh_cells = 256;
 

@@ -59,6 +59,7 @@ Position position_of(const toml::source_region& at, std::uint32_t source) {
 }
 
 std::variant<toml::table, Problem> parse(std::string_view text, std::uint32_t source) {
+  if (is_utf16(text)) return Problem{{source, 1, 1}, fmt::format("this is {}", utf16_words)};
   if (auto problem = too_deep(text, source)) return *std::move(problem);
   // The streams that toml++ reads numbers with swallow std::bad_alloc, and a good number is blamed: what is
   // wrong with the text is so a second time.

@@ -80,8 +80,10 @@ class Importer {
   }
 
   Result<ImportedConfiguration> read(std::string_view text) {
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    if (is_utf16(text))
+      return aspic::fail(ErrorCode::scene_rejected, "{}: this is {}", printable_line(file_name_),
+                         utf16_words);
+    skip_byte_order_mark(text);
     while (!text.empty()) {
       ++line_;
       const std::string_view line = take_line(text);
@@ -93,7 +95,7 @@ class Importer {
       fail("no key: a configuration has lines such as *DeltaT, each with its value on the next line");
     }
     if (problems_.empty()) return std::move(result_);
-    return Error{ErrorCode::scene_rejected, fmt::format("{}", fmt::join(problems_, "\n"))};
+    return Error{ErrorCode::scene_rejected, diagnostics::joined(problems_, "\n")};
   }
 
  private:

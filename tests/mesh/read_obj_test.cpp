@@ -1,7 +1,11 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "mesh/read_mesh.h"
 
@@ -38,6 +42,106 @@ TEST(ReadObj, PolygonsAreFans) {
   const auto read = parse_obj(std::string(corners) + "f 1 2 3 4", "a.obj");
   ASSERT_TRUE(read.ok()) << read.error().what;
   EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
+}
+
+/// Twice the area of all triangles, which is twice that of the polygon where none is outside of it.
+double twice_area(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles)
+    sum += length(area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
+  return sum;
+}
+
+TEST(ReadObj, CutsConcavePolygonsWithinTheirOutline) {
+  constexpr std::string_view l = "v 0 0 2\nv 2 0 2\nv 2 1 2\nv 1 1 2\nv 1 2 2\nv 0 2 2\n";
+  // A cross of twelve corners, in a plane that no axis is normal to.
+  std::string cross;
+  for (const auto& [u, v] : {std::pair(1, 0),
+                             {2, 0},
+                             {2, 1},
+                             {3, 1},
+                             {3, 2},
+                             {2, 2},
+                             {2, 3},
+                             {1, 3},
+                             {1, 2},
+                             {0, 2},
+                             {0, 1},
+                             {1, 1}})
+    cross += fmt::format("v {} {} {}\n", u, v, u + v);
+  for (int first = 0; first < 12; ++first) {
+    for (const bool backwards : {false, true}) {
+      const auto face = [&](int corners) {
+        std::string text = "f";
+        for (int n = 0; n < corners; ++n)
+          text += fmt::format(" {}", 1 + (first + (backwards ? corners - n : n)) % corners);
+        return text;
+      };
+      const auto read = parse_obj(std::string(l) + face(6), "l.obj");
+      ASSERT_TRUE(read.ok());
+      EXPECT_EQ(read->mesh.triangles.size(), 4u);
+      EXPECT_NEAR(twice_area(read->mesh), 6.0, 1e-12) << face(6);
+      const auto other = parse_obj(cross + face(12), "cross.obj");
+      ASSERT_TRUE(other.ok());
+      EXPECT_EQ(other->mesh.triangles.size(), 10u);
+      EXPECT_NEAR(twice_area(other->mesh), 10.0 * std::sqrt(3.0), 1e-12) << face(12);
+    }
+  }
+}
+
+TEST(ReadObj, CutsPolygonsThatNameACornerTwice) {
+  // The first corner once more at the end, and a square hole joined to the outline by a bridge.
+  const auto closed =
+      parse_obj("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6 1\n", "c.obj");
+  ASSERT_TRUE(closed.ok());
+  EXPECT_NEAR(twice_area(closed->mesh), 6.0, 1e-12);
+  const auto hole = parse_obj(
+      "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nv 1 1 0\nv 1 2 0\nv 2 2 0\nv 2 1 0\nf 1 2 3 4 1 5 6 7 8 5\n",
+      "hole.obj");
+  ASSERT_TRUE(hole.ok());
+  EXPECT_NEAR(twice_area(hole->mesh), 16.0, 1e-12);
+}
+
+TEST(ReadObj, HalvesConvexPolygonsOfManyCorners) {
+  constexpr int n = 1000;
+  std::string circle, face = "f";
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / n;
+    circle += fmt::format("v {} {} 0\n", std::cos(angle), std::sin(angle));
+    face += fmt::format(" {}", i + 1);
+  }
+  const auto read = parse_obj(circle + face, "circle.obj");
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(read->mesh.triangles.size(), n - 2u);
+  EXPECT_NEAR(twice_area(read->mesh), n * std::sin(2.0 * std::numbers::pi / n), 1e-12);
+  std::size_t at_first = 0;
+  for (const Triangle& t : read->mesh.triangles) at_first += std::ranges::count(t, 0u) > 0 ? 1 : 0;
+  EXPECT_LT(at_first, 20u);
+}
+
+TEST(ReadObj, TellsOfConcavePolygonsOfTooManyCorners) {
+  std::string star, face = "f";
+  for (int n = 0; n < 3000; ++n) {
+    const double r = n % 2 ? 1.0 : 2.0, angle = 2.0 * std::numbers::pi * n / 3000;
+    star += fmt::format("v {} {} 0\n", r * std::cos(angle), r * std::sin(angle));
+    face += fmt::format(" {}", n + 1);
+  }
+  const auto read = parse_obj(star + face, "star.obj");
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(read->mesh.triangles.size(), 2998u);
+  EXPECT_THAT(read->notes, ElementsAre(HasSubstr("concave faces of more than 2000 corners")));
+}
+
+TEST(ReadObj, TakesEveryKindOfLineEnd) {
+  const std::string text = std::string(corners) + "f 1 2 \\\n 3\n";
+  for (const std::string_view end : {"\r", "\r\n"}) {
+    std::string other;
+    for (const char c : text) c == '\n' ? void(other += end) : other.push_back(c);
+    const auto read = parse_obj(other, "a.obj");
+    ASSERT_TRUE(read.ok()) << read.error().what;
+    EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+    EXPECT_THAT(obj_error(other + "v x"), HasSubstr("a.obj:7: 'x' is no number"));
+  }
 }
 
 TEST(ReadObj, NegativeIndicesCountBackFromTheLine) {

@@ -83,6 +83,25 @@ TEST(ReadPly, FormatsAgree) {
   }
 }
 
+TEST(ReadPly, TakesHeadersWithEveryKindOfLineEnd) {
+  const std::string text = header("binary_little_endian");
+  for (const std::string_view end : {"\r", "\r\n"}) {
+    std::string other;
+    for (const char c : text) c == '\n' ? void(other += end) : other.push_back(c);
+    const auto read = parse_ply(other + binary_body(false), "a.ply");
+    ASSERT_TRUE(read.ok()) << read.error().what;
+    EXPECT_EQ(read->mesh.triangles.size(), 3u);
+  }
+  // The first byte of the body is that of a line feed.
+  const std::string short_header =
+      "ply\rformat binary_little_endian 1.0\relement x 1\rproperty uchar x\relement vertex 3\rproperty uchar "
+      "x\rproperty uchar y\rproperty uchar z\relement face 1\rproperty list uchar uchar vertex_index\r"
+      "end_header\r";
+  const auto read = parse_ply(short_header + std::string("\n\0\0\0\1\0\0\1\1\0\3\0\1\2", 14), "a.ply");
+  ASSERT_TRUE(read.ok()) << read.error().what;
+  EXPECT_EQ(read->mesh.vertices[2], (Vec3{1, 1, 0}));
+}
+
 TEST(ReadPly, HeaderErrorsNameTheLine) {
   EXPECT_THAT(ply_error(""), HasSubstr("a.ply:1: the first line is not 'ply'"));
   EXPECT_THAT(ply_error("ply\nformat ascii 1.0\nelement vertex 1\n"),

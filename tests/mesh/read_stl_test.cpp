@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mesh/read_mesh.h"
 #include "mesh/shapes.h"
 
@@ -49,6 +51,39 @@ TEST(ReadStl, AsciiIsReadWhateverItsCapitalsAndSolids) {
   ASSERT_TRUE(read.ok()) << read.error().what;
   EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{3, 4, 5}));
   EXPECT_EQ(read->mesh.vertices[5], (Vec3{0, 0, 1}));
+}
+
+TEST(ReadStl, TakesAByteOrderMarkAndEveryKindOfLineEnd) {
+  const std::string text = "solid W\xc3\xbcrfel\n" + std::string(facet) + "endsolid\n";
+  std::string mac = text;
+  std::ranges::replace(mac, '\n', '\r');
+  for (const std::string& bytes : {"\xef\xbb\xbf" + text, mac}) {
+    const auto read = parse_stl(bytes, "a.stl");
+    ASSERT_TRUE(read.ok()) << read.error().what;
+    EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+  }
+  EXPECT_THAT(stl_error(mac + "hello"), HasSubstr("a.stl:10: 'hello' is no word of STL"));
+}
+
+TEST(ReadStl, CountsTrianglesWhereTheHeaderNamesNone) {
+  std::string bytes = test::as_stl(test::box_mesh({1, 1, 1}));
+  bytes.replace(80, 4, 4, '\0');
+  const auto read = parse_stl(bytes, "a.stl");
+  ASSERT_TRUE(read.ok()) << read.error().what;
+  EXPECT_EQ(read->mesh.triangles.size(), 12u);
+  EXPECT_THAT(read->notes, ElementsAre("byte 80: 0 triangles are named, and the file has 12"));
+}
+
+TEST(ReadMesh, SaysThatAFileIsUtf16) {
+  for (const char* name : {"a.obj", "a.stl", "a.ply"})
+    for (const char* mark : {"\xff\xfe", "\xfe\xff"}) {
+      const auto read = parse_mesh(mark + std::string("v\0 \0"
+                                                      "0\0",
+                                                      6),
+                                   name);
+      ASSERT_FALSE(read.ok());
+      EXPECT_THAT(read.error().what, HasSubstr("this is UTF-16; save it as UTF-8"));
+    }
 }
 
 TEST(ReadStl, ErrorsNameThePlaceAndWhatHelps) {

@@ -44,6 +44,26 @@ std::size_t wrong_cells(const TriangleMesh& damaged) {
   return wrong;
 }
 
+TEST(Voxelise, ReportsItsProgress) {
+  std::vector<double> shares;
+  voxelised(test::box_mesh({1, 1, 1}), {.cells = 4, .watch = [&](double share) { shares.push_back(share); }});
+  EXPECT_THAT(shares, ElementsAre(0.0, 0.25, 0.5, 0.75));
+}
+
+TEST(Voxelise, ConcavePolygonsAreNoThinWalls) {
+  // An L of two hexagons and six quads, whose walls are four cells thick.
+  std::string text;
+  for (const int z : {0, 1})
+    for (const auto& [x, y] : {std::pair(0, 0), {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})
+      text += fmt::format("v {} {} {}\n", x, y, z);
+  text += "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n";
+  for (int i = 0; i < 6; ++i)
+    text += fmt::format("f {} {} {} {}\n", i + 1, (i + 1) % 6 + 1, (i + 1) % 6 + 7, i + 7);
+  const VoxelisedMesh made = voxelised(parse_obj(text, "l.obj")->mesh, {.cells = 8});
+  EXPECT_EQ(made.grid.full_count(), 192u);
+  EXPECT_EQ(made.report.thin, 0.0);
+}
+
 TEST(Voxelise, CellsOfASphereAreThoseWhoseMiddleIsInside) {
   const VoxelisedMesh made = voxelised(fine_sphere());
   for (int i = 0; i < forty; ++i) {

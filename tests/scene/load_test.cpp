@@ -24,6 +24,15 @@ using testing::StartsWith;
 
 const std::string smallest = "schema = 1\n[[cube]]\n";
 
+TEST(Load, SaysThatAFileIsUtf16) {
+  for (const char* mark : {"\xff\xfe", "\xfe\xff"}) {
+    const auto read = parse_scene(mark + std::string("s\0c\0h\0", 6), "s.toml");
+    ASSERT_FALSE(read.ok());
+    EXPECT_THAT(read.error().message(), StartsWith("s.toml:1:1: this is UTF-16; save it as UTF-8"));
+  }
+  EXPECT_TRUE(parse_scene("\xef\xbb\xbf" + smallest, "s.toml").ok());
+}
+
 // The numbers are those of docs/scene-reference.md, written out once more.
 TEST(Defaults, AreThoseOfTheFormat) {
   const Scene s = test::parsed("schema = 1\n[[terrain]]\n[[cube]]\n");
