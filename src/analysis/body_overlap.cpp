@@ -115,11 +115,9 @@ double deepest_of(const Skin& skin, const std::vector<Vector>& within) {
   return deepest;
 }
 
-BodyOverlap& pair_of(std::vector<BodyOverlap>& overlaps, std::uint32_t a, std::uint32_t b) {
+BodyOverlap& pair_of(DeepPoints::Found& overlaps, std::uint32_t a, std::uint32_t b) {
   const std::uint32_t low = std::min(a, b), high = std::max(a, b);
-  for (BodyOverlap& each : overlaps)
-    if (each.a == low && each.b == high) return each;
-  return overlaps.emplace_back(BodyOverlap{low, high, 0.0, 0.0, 0.0});
+  return overlaps.try_emplace({low, high}, BodyOverlap{low, high, 0.0, 0.0, 0.0}).first->second;
 }
 
 }  // namespace
@@ -143,6 +141,12 @@ DeepPoints::Boxes DeepPoints::boxes_of(const State& state) const {
   return boxes;
 }
 
+std::vector<BodyOverlap> DeepPoints::listed(const Found& found) {
+  std::vector<BodyOverlap> all;
+  for (const auto& [pair, each] : found) all.push_back(each);
+  return all;
+}
+
 double DeepPoints::depth(std::uint32_t a, std::uint32_t b) const {
   return touch_pair(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false).depth;
 }
@@ -159,7 +163,7 @@ bool DeepPoints::near(const Boxes& boxes, std::uint32_t a, std::uint32_t b) cons
 }
 
 void DeepPoints::take(const State& state, const Boxes& boxes, std::uint32_t a, std::uint32_t b,
-                      std::vector<BodyOverlap>& found) const {
+                      DeepPoints::Found& found) const {
   const TouchBody &points = surfaces_.bodies[a], &faces = surfaces_.bodies[b];
   const double D = depth(a, b);
   std::vector<Vector> candidates;
@@ -194,7 +198,7 @@ double deepest_within(const Skin& skin, const std::vector<Vector>& places) {
 /// Particles of one body within another, those inside of it, too: where bodies are nearly in one place, all
 /// points of their surfaces are next to faces that turn the same way, which push nothing.
 void add_particles_within(const Model& model, const State& state, const TouchSurfaces& surfaces,
-                          std::vector<BodyOverlap>& overlaps) {
+                          DeepPoints::Found& overlaps) {
   std::vector<Eigen::AlignedBox3d> boxes;
   const auto place = [&](std::size_t p) { return reference::rounded<double>(state.position[p]); };
   const auto for_particles = [&](const TouchBody& of, const auto& use) {
@@ -238,13 +242,53 @@ void add_particles_within(const Model& model, const State& state, const TouchSur
   }
 }
 
+/// Bodies, ascending, without those whose box meets the boxes of most_crowded others that are at least as
+/// large.
+std::vector<std::uint32_t> outside_crowds(const Model& model, const State& state) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Body& body : model.bodies) {
+    Eigen::AlignedBox3d& box = boxes.emplace_back();
+    for (std::size_t n = 0; n < body.particle_count; ++n)
+      box.extend(reference::rounded<double>(state.position[body.first_particle + n]));
+  }
+  std::vector<std::uint32_t> along(boxes.size()), before, chosen;
+  std::iota(along.begin(), along.end(), std::uint32_t{0});
+  std::ranges::sort(along, {}, [&](std::uint32_t n) { return boxes[n].min().x(); });
+  for (const std::uint32_t b : along) {
+    std::erase_if(before, [&](std::uint32_t a) { return boxes[a].max().x() < boxes[b].min().x(); });
+    const auto met = std::ranges::count_if(before, [&](std::uint32_t a) {
+      return boxes[a].volume() >= boxes[b].volume() && boxes[a].intersects(boxes[b]);
+    });
+    if (static_cast<std::size_t>(met) >= most_crowded) continue;
+    before.push_back(b);
+    chosen.push_back(b);
+  }
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
 }  // namespace
 
-std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state) {
-  if (!model.contact.bodies || !bodies_touch(model)) return {};
+bool has_crowd(const Model& model, const State& state) {
+  return model.contact.bodies && bodies_touch(model) &&
+         outside_crowds(model, state).size() < model.bodies.size();
+}
+
+std::vector<BodyOverlap> overlaps_of(const Model& all, const State& state) {
+  if (!all.contact.bodies || !bodies_touch(all)) return {};
+  const std::vector<std::uint32_t> chosen = outside_crowds(all, state);
+  std::optional<Model> few;
+  if (chosen.size() < all.bodies.size()) {
+    few = all;
+    few->bodies.clear();
+    for (const std::uint32_t b : chosen) few->bodies.push_back(all.bodies[b]);
+  }
+  const Model& model = few ? *few : all;
   const TouchSurfaces surfaces = touch_surfaces(model);
-  std::vector<BodyOverlap> overlaps =
-      DeepPoints(model).find(state, [](std::uint32_t, std::uint32_t) { return false; });
+  DeepPoints::Found overlaps;
+  for (const BodyOverlap& each :
+       DeepPoints(model).find(state, [](std::uint32_t, std::uint32_t) { return false; }))
+    pair_of(overlaps, each.a, each.b) = each;
   using Contact = reference::BodyContact<double>;
   Contact contact(model);
   const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
@@ -276,9 +320,14 @@ std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state) {
   }
   add_particles_within(model, state, surfaces, overlaps);
   // What touches without being within each other, but for rounding, is left out.
-  std::erase_if(overlaps, [](const BodyOverlap& each) { return !(each.deepest > 1e-6 * each.most); });
-  std::ranges::sort(overlaps, {}, [](const BodyOverlap& each) { return std::pair(each.a, each.b); });
-  return overlaps;
+  std::vector<BodyOverlap> within;
+  for (const auto& [pair, each] : overlaps) {
+    if (!(each.deepest > 1e-6 * each.most)) continue;
+    within.push_back(each);
+    within.back().a = chosen[each.a];
+    within.back().b = chosen[each.b];
+  }
+  return within;
 }
 
 }  // namespace aspic

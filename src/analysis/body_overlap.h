@@ -2,7 +2,9 @@
 // Bodies that are within each other at a state: what a start eases apart, and what is so deep that nothing
 // pushes it out (docs/contact.md).
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "model/model.h"
@@ -27,14 +29,18 @@ class DeepPoints {
   /// A pair for which this returns true is left out.
   template <class Known>
   std::vector<BodyOverlap> find(const State& state, const Known& known) const {
-    std::vector<BodyOverlap> found;
+    Found found;
     const Boxes boxes = boxes_of(state);
     for (std::uint32_t a = 0; a < surfaces_.bodies.size(); ++a)
       for (std::uint32_t b = 0; b < surfaces_.bodies.size(); ++b)
         if (near(boxes, a, b) && !known(surfaces_.bodies[a].body, surfaces_.bodies[b].body))
           take(state, boxes, a, b, found);
-    return found;
+    return listed(found);
   }
+
+  /// By their two bodies.
+  using Found = std::map<std::pair<std::uint32_t, std::uint32_t>, BodyOverlap>;
+  static std::vector<BodyOverlap> listed(const Found& found);
 
  private:
   struct Box {
@@ -43,16 +49,23 @@ class DeepPoints {
   using Boxes = std::vector<Box>;
   Boxes boxes_of(const State& state) const;
   bool near(const Boxes& boxes, std::uint32_t a, std::uint32_t b) const;
-  void take(const State& state, const Boxes& boxes, std::uint32_t a, std::uint32_t b,
-            std::vector<BodyOverlap>& found) const;
+  void take(const State& state, const Boxes& boxes, std::uint32_t a, std::uint32_t b, Found& found) const;
   double depth(std::uint32_t a, std::uint32_t b) const;
 
   TouchSurfaces surfaces_;
   ContactSettings contact_;
 };
 
-/// Every pair of which one has points or particles within the other at a state, with what is deeper than D;
-/// ascending.
+/// Bodies in one place that are looked at: one whose box meets the boxes of so many that are at least as
+/// large is left out.
+inline constexpr std::size_t most_crowded = 32;
+
+/// Whether more bodies are in one place: what contact of all of them takes grows with the square of their
+/// number.
+bool has_crowd(const Model& model, const State& state);
+
+/// Every pair of which one has points or particles within the other at a state, with what is deeper than D.
+/// Of a crowd in one place, some: there are as many pairs as the square of its bodies.
 /// Nothing where the model's bodies do not touch each other.
 std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state);
 

@@ -12,6 +12,8 @@
 namespace aspic::diagnostics {
 namespace {
 
+/// Problems of one file that are shown.
+constexpr std::size_t most_shown = 20;
 /// Lines longer than this are shown in part, around the culprit.
 constexpr std::size_t shown_characters = 100;
 /// Arguments longer than this are named in part; the line below shows the place.
@@ -78,12 +80,17 @@ std::string rendered(const Source& source, const Problem& problem) {
 Error rejection(std::span<const Source> sources, std::vector<Problem> problems) {
   std::ranges::stable_sort(problems, {}, &Problem::at);
   problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
-  std::string message;
-  for (const Problem& problem : problems) {
-    if (!message.empty()) message += "\n\n";
-    message += rendered(sources[problem.at.source], problem);
-  }
-  return Error{ErrorCode::scene_rejected, message};
+  std::vector<std::string> texts(problems.size());  // those that are shown
+  for (std::size_t i = 0; i < std::min(problems.size(), most_shown); ++i)
+    texts[i] = rendered(sources[problems[i].at.source], problems[i]);
+  return Error{ErrorCode::scene_rejected, joined(texts, "\n\n")};
+}
+
+std::string joined(std::span<const std::string> texts, std::string_view between) {
+  const std::size_t shown = std::min(texts.size(), most_shown);
+  std::string all = fmt::format("{}", fmt::join(texts.first(shown), between));
+  if (texts.size() > shown) all += fmt::format("{}and {} more", between, texts.size() - shown);
+  return all;
 }
 
 std::string list_text(std::span<const std::string_view> words, bool quoted) {

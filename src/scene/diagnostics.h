@@ -35,9 +35,12 @@ struct Source {
   enum Kind { file, argument, none } kind = file;  ///< none: a scene that was not read from text
 };
 
-/// All problems as one scene_rejected error: those of the file by line and column, then those of the
-/// arguments in their order, a blank line between. A problem that was found twice in one place is reported
-/// once.
+/// The first 20 texts with `between` between them; of more, at the end "and 5 more".
+std::string joined(std::span<const std::string> texts, std::string_view between);
+
+/// Problems as one scene_rejected error, the first 20 and the number of the others: those of the file by line
+/// and column, then those of the arguments in their order, a blank line between. A problem that was found
+/// twice in one place is reported once.
 Error rejection(std::span<const Source> sources, std::vector<Problem> problems);
 
 /// Words as a list: `a, b or c`, each in quotation marks if `quoted`.

@@ -154,6 +154,25 @@ void check_sheets(const Scene& scene, Complaints& complaints) {
   }
 }
 
+/// Corners of a body of cells that no full cell has.
+void check_corners(const Scene& scene, Complaints& complaints) {
+  const BodyRow& row = *std::ranges::find(body_rows(), "voxels", [](const BodyRow& r) { return r.list.key; });
+  for (std::size_t i = 0; i < scene.model.voxels.size(); ++i) {
+    const std::vector<std::string>& names = scene.model.voxels[i].pinned.names;
+    for (std::size_t n = 0; n < names.size(); ++n) {
+      if (names[n].find('-') == std::string::npos) continue;
+      const auto found = row.named(*row.pins, scene.model, i, {{names[n]}, {}});
+      if (!found || std::ranges::find(*found, true) != found->end()) continue;
+      complaints.push_back(
+          {{fmt::format("'voxels.pinned' \"{}\" names no particle: there is no cell at this corner",
+                        names[n]),
+            n},
+           path_text("voxels[].pinned", i),
+           path_text("voxels[].layers", i)});
+    }
+  }
+}
+
 void check_particles(const Scene& scene, Complaints& complaints) {
   constexpr std::uint64_t most = most_lattice_points;
   for (std::size_t c = 0; c < scene.model.cubes.size(); ++c) {
@@ -263,6 +282,7 @@ std::vector<SceneComplaint> check_scene(const Scene& scene, std::optional<std::u
   // These compute with the numbers.
   check_actuators(scene, complaints);
   check_particles(scene, complaints);
+  check_corners(scene, complaints);
   check_sheets(scene, complaints);
   check_boxes(scene, complaints);
   check_camera(scene, complaints);

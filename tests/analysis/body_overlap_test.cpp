@@ -43,6 +43,17 @@ TEST(BodyOverlap, HasDepthAndEnergyOfThePushes) {
   EXPECT_NEAR(found[0].energy, 2 * (25 + 32) * 0.5 * 7.3125 * 2000.0 * near * near, 1e-6);
 }
 
+TEST(BodyOverlap, ComparesFewOfACrowdWithEachOther) {
+  std::vector<CubeSettings> crowd;
+  for (int n = 0; n < 60; ++n) crowd.push_back(cube_at({0.01 * n, 0.0, 0.0}));
+  crowd.push_back(cube_at({50.0, 0.0, 0.0}));
+  crowd.push_back(cube_at({50.0, 1.9, 0.0}));
+  const auto found = overlaps(crowd);
+  EXPECT_EQ(found.size(), most_crowded * (most_crowded - 1) / 2 + 1);
+  EXPECT_EQ(found.back().a, 60u);
+  EXPECT_EQ(found.back().b, 61u);
+}
+
 TEST(BodyOverlap, IsNoneWhereBodiesOnlyTouchOrPassThroughEachOther) {
   EXPECT_TRUE(overlaps({cube_at({}), cube_at({0.0, 2.0, 0.0})}).empty());
   EXPECT_TRUE(overlaps({cube_at({}), cube_at({0.0, 2.03, 0.0})}).empty());

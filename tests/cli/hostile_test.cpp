@@ -129,7 +129,7 @@ TEST_F(HostileCheckpoint, AsItIsItGoesOn) {
 TEST_F(MemoryLimitOnCheckpoint, FilesWithoutAnEndAreNotRead) {
   for (const char* path : {"/dev/zero", "/dev/full", "/dev/urandom", "/dev/null", "/proc/self"}) {
     test::ProcessOptions small;
-    small.address_space_limit = std::uint64_t{1} << 30;
+    small.address_space_limit = std::uint64_t{512} << 20;
     const auto run = aspic({"run", "--resume", path}, small);
     EXPECT_EQ(run.exit_code, 6) << path;
     EXPECT_THAT(run.err, HasSubstr(path));
@@ -165,7 +165,7 @@ TEST_F(HostileCheckpoint, TheVersionTextIsShortAndPlain) {
 
 TEST_F(MemoryLimitOnCheckpoint, ItsSceneIsHeldAgainstItsStateBeforeItIsBuilt) {
   test::ProcessOptions small;
-  small.address_space_limit = std::uint64_t{1} << 30;
+  small.address_space_limit = std::uint64_t{512} << 20;
   Checkpoint spoilt = checkpoint();
   for (const char* edge : {"400", "4"}) {
     spoilt.scene =
@@ -191,7 +191,7 @@ TEST_F(HostileCheckpoint, StepsBeyondCountingAreRefused) {
 TEST(MemoryLimit, ScenesThatNeedMoreMemoryThanThereIsAreRefusedBeforeTheyAreBuilt) {
   const test::TemporaryDirectory dir;
   test::ProcessOptions small;
-  small.address_space_limit = std::uint64_t{1} << 30;
+  small.address_space_limit = std::uint64_t{512} << 20;
   write_file(dir.file("s.toml"), "schema = 1\n[[launcher]]\ncount = 10000000\n");
   const auto balls = aspic({"run", dir.file("s.toml"), "--backend", "reference", "--steps", "0"}, small);
   EXPECT_EQ(balls.exit_code, 3);
@@ -252,6 +252,33 @@ TEST(Hostile, WhatIsImportedCanBeLoaded) {
   ASSERT_EQ(imported.exit_code, 0) << imported.err;
   write_file(dir.file("s.toml"), imported.out);
   const auto check = aspic({"scene", "check", dir.file("s.toml")});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
+TEST(Hostile, MistakesOfASceneAreCountedAfterTheFirstTwenty) {
+  const test::TemporaryDirectory dir;
+  std::string pinned = "schema = 1\n[[cube]]\nparticles-per-edge = 2\npinned = [99";
+  for (int n = 1; n < 30000; ++n) pinned += ",99";
+  write_file(dir.file("pinned.toml"), pinned + "]\n");
+  std::string keys = "schema = 1\n[[cube]]\nparticles-per-edge = 2\n";
+  for (int n = 0; n < 30000; ++n) keys += "k" + std::to_string(n) + " = 1\n";
+  write_file(dir.file("keys.toml"), keys);
+  for (const char* name : {"pinned.toml", "keys.toml"}) {
+    const auto check = aspic({"scene", "check", dir.file(name)});
+    EXPECT_EQ(check.exit_code, 3);
+    EXPECT_THAT(check.err, testing::EndsWith("\n\nand 29980 more\n"));
+    EXPECT_LT(check.err.size(), 10000u);
+  }
+}
+
+TEST(Hostile, BodiesInOnePlaceAreCheckedInTheMemoryOfAFew) {
+  const test::TemporaryDirectory dir;
+  std::string scene = "schema = 1\n";
+  for (int c = 0; c < 300; ++c) scene += "[[cube]]\nparticles-per-edge = 2\n";
+  write_file(dir.file("s.toml"), scene);
+  test::ProcessOptions options;
+  options.address_space_limit = std::uint64_t{512} << 20;
+  const auto check = aspic({"scene", "check", dir.file("s.toml")}, options);
   EXPECT_EQ(check.exit_code, 0) << check.err;
 }
 

@@ -28,6 +28,20 @@ const std::string worm =
     "[[voxels]]\nname = \"worm\"\nsize = 0.01\npalette = { 1 = \"muscle\", 2 = \"fat\" }\n"
     "layers = [[\"11.11\", \"11.11\"], [\"22222\", \"22222\"]]\n";
 
+TEST(VoxelScene, RefusesPinnedCornersWithoutACell) {
+  const auto read = [](std::string_view corner) {
+    return parse_scene(fmt::format("schema = 1\n[[voxels]]\nsize = 0.1\nlayers = [[\"11\", \"11\"], [\"11\", "
+                                   "\".1\"]]\npinned = [\"top\", \"{}\"]\n",
+                                   corner),
+                       "s.toml");
+  };
+  EXPECT_TRUE(read("right-top-front").ok());
+  const auto refused = read("left-top-front");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message(),
+              StartsWith("s.toml:5:18: 'voxels.pinned' \"left-top-front\" names no particle"));
+}
+
 TEST(VoxelScene, ReadsMaterialsByNameAndLayers) {
   const Scene scene = test::parsed(worm);
   ASSERT_EQ(scene.model.materials.size(), 2u);
