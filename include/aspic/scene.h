@@ -1,6 +1,7 @@
 #pragma once
 // A scene: the physics and the picture of one TOML file, as plain data; from text and back.
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -161,6 +162,8 @@ struct LoadOptions {
   /// What messages put before a KEY=VALUE argument: the option that it was given by; empty: nothing.
   std::string origin = {};
   std::vector<std::string>* notes = nullptr;  ///< gets what was repaired in meshes; null: nobody is told
+  /// Called while a mesh becomes cells, with the share that is done, 0 to 1; empty: it is not called.
+  std::function<void(double)> watch = {};
 };
 
 /// Reads a scene from TOML text. Messages name `file_name`. `overrides` are KEY=VALUE arguments, later ones

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/body_overlap.h"
 #include "analysis/stability.h"
 #include "aspic/scene.h"
 #include "base/files.h"
@@ -25,6 +26,8 @@
 #include "run/capacity.h"
 #include "scene/import_configuration.h"
 #include "scene/import_mesh.h"
+#include "scene/parameters.h"
+#include "scene/scene_checks.h"
 
 namespace aspic::cli {
 namespace {
@@ -96,15 +99,24 @@ Status import_as_body(const SceneImportOptions& options) {
   MeshImport import = {options.file, options.cells, options.height};
   if (options.up) import.up = *options.up;
   if (options.pieces) import.pieces = *options.pieces;
-  ASPIC_TRY(auto imported, import_mesh(import));
-  for (const std::string& note : imported.notes)
-    print_message(fmt::format("{}: {}.", printable_line(options.file), note));
-  ASPIC_TRY(const auto model, build_model(imported.scene.model));
-  double& timestep = imported.scene.model.simulation.timestep;
-  timestep =
-      usual_timestep(stability_limit(model, model.simulation.integrator, StabilityEffort::quick), timestep);
-  return print_data(imported_toml(imported, options.file));
-}
+  ProgressBar bar(100, "part");
+  import.watch = [&](double share) { bar.update(static_cast<std::uint64_t>(70.0 * share));
+};
+ASPIC_TRY(auto imported, import_mesh(import));
+for (const std::string& note : imported.notes)
+  print_message(fmt::format("{}: {}.", printable_line(options.file), note));
+ASPIC_TRY(const auto model, build_model(imported.scene.model));
+bar.update(85);
+double& timestep = imported.scene.model.simulation.timestep;
+timestep =
+    usual_timestep(stability_limit(model, model.simulation.integrator, StabilityEffort::quick), timestep);
+timestep = std::min(timestep, find_parameter("simulation.timestep")->range.max);
+if (const auto wrong = check_scene(imported.scene); !wrong.empty())
+  return fail(ErrorCode::scene_rejected,
+              "{}: a scene of this size is out of range: {}. Give another --height.",
+              printable_line(options.file), wrong.front().message);
+return print_data(imported_toml(imported, options.file));
+}  // namespace
 
 /// Springs that an actuator acts on, alone or among others.
 std::vector<std::uint64_t> springs_by_actuator(const Model& model) {
@@ -181,6 +193,25 @@ std::string actuators_text(const Model& model) {
                     shortest_share(model), largest_actuation_energy(model));
 }
 
+/// Keys that were changed and act on nothing: a net has springs of a kind only where that has a stiffness.
+std::vector<std::string> idle_keys(const ModelSettings& settings) {
+  std::vector<std::string> notes;
+  for (std::size_t n = 0; n < settings.goal_nets.size(); ++n) {
+    const GoalNetSettings &net = settings.goal_nets[n], usual;
+    const auto look = [&](std::string_view kind, const OptionalSpringSettings& spring,
+                          const OptionalSpringSettings& otherwise) {
+      if (spring.stiffness == 0.0 && spring.damping != otherwise.damping)
+        notes.push_back(fmt::format(
+            "goal-net[{}].{}.damping has no effect: its {}.stiffness is 0, so there are no such springs.", n,
+            kind, kind));
+    };
+    if (net.material) continue;
+    look("shear", net.shear, usual.shear);
+    look("bending", net.bending, usual.bending);
+  }
+  return notes;
+}
+
 /// Whether a file's name ends as those of meshes do that other programs read.
 bool is_another_mesh(const std::string& file) {
   constexpr std::string_view endings[] = {".3mf",  ".blend", ".dae",  ".fbx", ".glb", ".gltf",
@@ -192,7 +223,7 @@ bool is_another_mesh(const std::string& file) {
   return std::ranges::find(endings, ending) != std::end(endings);
 }
 
-}  // namespace
+}  // namespace aspic::cli
 
 Status execute(const SceneImportOptions& options) {
   if (names_mesh(options.file)) return import_as_body(options);
@@ -245,13 +276,16 @@ Status execute(const SceneCheckOptions& options) {
                  "interrupted before the stable steps were known; nothing was printed."};
 
   const std::optional<DeviceCapacity> capacity = device_capacity(own);
+  // Measured on solvers, which a crowd makes large.
+  const bool crowd = has_crowd(model, initial_state(model, Precision::double_));
+  const auto backend_bytes = crowd ? decltype(bytes_by_backend(model)){} : bytes_by_backend(model);
   if (options.json) {
     Json largest = Json::object();
     if (capacity)
       for (const CubeCapacity& cube : capacity->cubes)
         largest[std::string(cube.force_path)] = cube.particles_per_edge;
     Json bytes, steps;
-    for (const BackendBytes& backend : bytes_by_backend(model))
+    for (const BackendBytes& backend : backend_bytes)
       bytes[backend.backend] = backend.bytes ? Json(*backend.bytes) : Json();
     for (std::size_t i = 0; i < limits.size(); ++i) {
       steps[std::string(name_of(explicit_integrators[i]))] = {{"step", limits[i].step.value_or(0.0)},
@@ -286,7 +320,10 @@ Status execute(const SceneCheckOptions& options) {
     const std::uint64_t shared = model_bytes(model) + state_bytes(counts);
     text += fmt::format("memory       {:<24} {:>10}\n", "model", human_bytes(model_bytes(model)));
     text += fmt::format("memory       {:<24} {:>10}\n", "state", human_bytes(state_bytes(counts)));
-    for (const auto& [backend, bytes] : bytes_by_backend(model)) {
+    if (crowd)
+      text += fmt::format("memory       not known of backends: more than {} bodies are in one place\n",
+                          most_crowded);
+    for (const auto& [backend, bytes] : backend_bytes) {
       text += bytes ? fmt::format("memory       {:<24} {:>10}, a run {}\n", backend, human_bytes(*bytes),
                                   human_bytes(shared + *bytes))
                     : fmt::format("memory       {:<24} more than is free\n", backend);
@@ -315,6 +352,7 @@ Status execute(const SceneCheckOptions& options) {
       print_warning(unstable_sentence(timestep, own, limit));
     }
   }
+  for (const std::string& note : idle_keys(scene.model)) print_message(note);
   for (const std::string& warning : contact_warnings(scene, model, touching, touching_steps))
     print_warning(warning);
   return {};

@@ -310,7 +310,7 @@ CommandTable::CommandTable(Finish finish)
   on(scenes[0], [this] { return Command(list); });
   on(scenes[1], [this] { return Command(show); });
   on(scenes[2], [this] { return Command(check); });
-  on(scenes[3], [this] { return Command(import); });
+  on(scenes[3], [this] { return finish_import(import); });
   on(with_shader_cache(add_info(app, info)), [this] { return Command(info); });
 }
 

@@ -13,6 +13,7 @@
 #include "command_line/window_layouts.h"
 #include "io/film_format.h"
 #include "page/page_writer.h"
+#include "scene/parameters.h"
 
 namespace aspic {
 namespace {
@@ -248,6 +249,24 @@ Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
     ASPIC_TRY(bench.pictures, parse_size(raw.bench_pictures, "--pictures"));
   }
   return Command(std::move(bench));
+}
+
+Result<Command> finish_import(const SceneImportOptions& import) {
+  // Keys of a scene with the names that they have here.
+  const auto check = [](std::string_view option, std::string_view path, const auto& value) -> Status {
+    const Parameter& key = *find_parameter(path);
+    const auto wrong = value ? check_value(key, Value(*value)) : std::nullopt;
+    if (!wrong) return {};
+    const std::string name = fmt::format("'{}'", key_text(key));
+    std::string message = wrong->message;
+    if (const std::size_t at = message.find(name); at != std::string::npos)
+      message.replace(at, name.size(), option);
+    return usage("{}.", message);
+  };
+  ASPIC_CHECK(check("--height", "voxels[].height", import.height));
+  ASPIC_CHECK(check("--up", "voxels[].up", import.up));
+  ASPIC_CHECK(check("--pieces", "voxels[].pieces", import.pieces));
+  return Command(import);
 }
 
 }  // namespace aspic

@@ -39,5 +39,6 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw);
 Result<Command> finish_view(ViewOptions view, const RawOptions& raw);
 Result<Command> finish_sweep(SweepOptions sweep, const RawOptions& raw);
 Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw);
+Result<Command> finish_import(const SceneImportOptions& import);
 
 }  // namespace aspic

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/printable.h"
 #include "base/stopwatch.h"
 #include "io/motion_sink.h"
 #include "io/numbered_files.h"
@@ -29,6 +30,21 @@ std::string escaped(const std::string& text) {
       xml += c;
   }
   return xml;
+}
+
+/// Error (usage): the file's name has characters that no XML can hold.
+Status check_name(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename();
+  for (std::string_view rest = name; !rest.empty();) {
+    const Utf8Character c = first_character(rest);
+    if (!c.valid || (c.code < 0x20 && c.code != '\t' && c.code != '\n' && c.code != '\r'))
+      return fail(ErrorCode::usage,
+                  "{}: a .pvd file holds the names of its files as XML, which has no control characters and "
+                  "only UTF-8; choose another name.",
+                  printable_line(path));
+    rest.remove_prefix(c.size);
+  }
+  return {};
 }
 
 class PvdSeries final : public MotionSink {
@@ -84,6 +100,7 @@ class PvdSeries final : public MotionSink {
 Result<std::unique_ptr<StateSink>> open_pvd(const std::string& path, std::uint64_t every, Overwrite overwrite,
                                             const RunFacts&) {
   ASPIC_CHECK(check_export_name(path));
+  ASPIC_CHECK(check_name(path));
   ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
   return std::unique_ptr<StateSink>(std::make_unique<PvdSeries>(path, every, overwrite, std::move(file)));
 }

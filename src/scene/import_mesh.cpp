@@ -90,7 +90,8 @@ Result<ImportedMesh> import_mesh(const MeshImport& import) {
   for (std::string& key : keys) key.insert(0, "voxels[0].");
   if (const auto file = load_mesh(import.file); !file) return file.error();
   ImportedMesh made;
-  ASPIC_TRY(made.scene, parse_scene(frame, "import.toml", keys, {.notes = &made.notes}));
+  ASPIC_TRY(made.scene,
+            parse_scene(frame, "import.toml", keys, {.notes = &made.notes, .watch = import.watch}));
   const std::string said_before = printable_line(import.file) + ": ";
   for (std::string& note : made.notes)
     if (note.starts_with(said_before)) note.erase(0, said_before.size());

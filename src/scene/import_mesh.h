@@ -1,5 +1,6 @@
 #pragma once
 // A mesh as a scene to start from.
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct MeshImport {
   std::optional<double> height = {};  ///< [m]
   std::string up = "y";               ///< axis of the file
   std::string pieces = "largest";
+  std::function<void(double)> watch = {};  ///< as LoadOptions::watch
 };
 
 /// What came of a mesh.

@@ -34,7 +34,7 @@ Result<Scene> with_arguments(reader::Reader reader, std::vector<diagnostics::Sou
   apply({overrides, options.origin}, reader, sources);
   reader::choose_signals(reader);
   reader::read_cell_files(reader, sources);
-  reader::read_meshes(reader, sources, options.notes);
+  reader::read_meshes(reader, sources, options);
   reader::read_actuator_files(reader, sources);
   auto problems = reader.problems(options.memory_bytes ? options.memory_bytes : available_memory());
   if (!problems.empty()) return diagnostics::rejection(sources, std::move(problems));

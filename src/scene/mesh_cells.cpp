@@ -64,7 +64,8 @@ T given(const Reader& reader, std::string_view path, std::size_t index, T otherw
   return std::get<T>(found->second);
 }
 
-Result<std::vector<std::string>> mesh_into(Reader& reader, std::size_t index, const std::string& path) {
+Result<std::vector<std::string>> mesh_into(Reader& reader, std::size_t index, const std::string& path,
+                                           const std::function<void(double)>& watch) {
   VoxelsSettings& voxels = reader.scene().model.voxels[index];
   VoxelisationSettings how;
   how.cells = static_cast<int>(given<std::int64_t>(reader, "voxels[].cells", index, usual_mesh_cells));
@@ -72,6 +73,7 @@ Result<std::vector<std::string>> mesh_into(Reader& reader, std::size_t index, co
   const std::string up = given<std::string>(reader, "voxels[].up", index, "y");
   how.up = std::ranges::find(up_axes, up, &Named<UpAxis>::name)->value;
   how.pieces = voxels.pieces;
+  how.watch = watch;
   ASPIC_TRY(const MeshFile file, load_mesh(path));
   return take_mesh(voxels, file, how, path);
 }
@@ -87,7 +89,7 @@ std::string said_of(const Error& error, const std::string& name, const std::vect
 }  // namespace
 
 void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources,
-                 std::vector<std::string>* notes) {
+                 const LoadOptions& options) {
   for (std::size_t i = 0; i < reader.scene().model.voxels.size(); ++i) {
     const std::string path = path_text("voxels[].mesh", i);
     const auto written = reader.written().find(path);
@@ -105,12 +107,12 @@ void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources
         in_file ? std::filesystem::path(sources.front().label).parent_path() : std::filesystem::path();
     const auto builtin = builtin_meshes();
     const bool is_builtin = std::ranges::find(builtin, name) != builtin.end();
-    const auto taken = mesh_into(reader, i, is_builtin ? name : (folder / name).string());
+    const auto taken = mesh_into(reader, i, is_builtin ? name : (folder / name).string(), options.watch);
     if (!taken)
       reader.blame(path, fmt::format("'voxels.mesh': {}", said_of(taken.error(), name, builtin)));
-    else if (notes)
+    else if (options.notes)
       for (const std::string& note : *taken)
-        notes->push_back(fmt::format("{}: {}", printable_line(name), note));
+        options.notes->push_back(fmt::format("{}: {}", printable_line(name), note));
   }
 }
 

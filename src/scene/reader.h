@@ -83,9 +83,8 @@ class Reader {
 /// Puts the cells of files in the place of layers. Paths are relative to the scene's file, or of arguments to
 /// the working directory.
 void read_cell_files(Reader& reader, const std::vector<diagnostics::Source>& sources);
-/// The same of meshes, with size and skin. What was done to them goes to `notes`, where that is not null.
-void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources,
-                 std::vector<std::string>* notes);
+/// The same of meshes, with size and skin.
+void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources, const LoadOptions& options);
 
 /// A table that was written and no signal, or before it: then it is the signal.
 void choose_signals(Reader& reader);

@@ -49,6 +49,17 @@ TEST(RunExports, TakeTheFormatOfTheirEnding) {
   EXPECT_EQ(samples_of(dir.read("run.npz.npz")), "2") << "the start and the end";
 }
 
+TEST(RunExports, RefusePvdNamesThatXmlCannotHold) {
+  const test::TemporaryDirectory dir;
+  for (const char* name : {"\x1b.pvd", "\x01.pvd", "a\xff.pvd"}) {
+    const auto run = aspic(flag_words({"--steps", "2", "--export", dir.file(name)}));
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("choose another name"));
+  }
+  EXPECT_EQ(dir.entries(), 0u);
+  EXPECT_EQ(aspic(flag_words({"--steps", "2", "--export", dir.file("ü & <\".pvd")})).exit_code, 0);
+}
+
 TEST(RunExports, OfRunsSideBySideEachHasItsOwn) {
   const test::TemporaryDirectory dir;
   const auto run =

@@ -45,8 +45,29 @@ TEST(ImportMesh, SaysWhatIsWrong) {
   EXPECT_THAT(cells.err, HasSubstr("are for meshes"));
   EXPECT_EQ(aspic({"scene", "import", "rabbit", "--cells", "0"}).exit_code, 2);
   const auto up = aspic({"scene", "import", "rabbit", "--up", "x"});
-  EXPECT_EQ(up.exit_code, 3);
-  EXPECT_THAT(up.err, HasSubstr("voxels.up"));
+  EXPECT_EQ(up.exit_code, 2);
+  EXPECT_EQ(up.err, "aspic: --up does not know \"x\"; allowed: \"y\" or \"z\"; did you mean 'y'?.\n");
+  const auto pieces = aspic({"scene", "import", "rabbit", "--pieces", "some"});
+  EXPECT_EQ(pieces.exit_code, 2);
+  EXPECT_THAT(pieces.err, HasSubstr("--pieces does not know \"some\""));
+  const auto height = aspic({"scene", "import", "rabbit", "--height", "-1"});
+  EXPECT_EQ(height.exit_code, 2);
+  EXPECT_THAT(height.err, HasSubstr("--height is out of range: -1"));
+}
+
+TEST(ImportMesh, PrintsSceneWithinRangesOrRefusesItsHeight) {
+  const test::TemporaryDirectory dir;
+  for (const char* height : {"1e-6", "3e5", "1e6"}) {
+    const auto imported = aspic({"scene", "import", "rabbit", "--cells", "4", "--height", height});
+    if (imported.exit_code != 0) {
+      EXPECT_EQ(imported.exit_code, 3);
+      EXPECT_THAT(imported.err, HasSubstr("Give another --height."));
+      continue;
+    }
+    dir.write("rabbit.toml", imported.out);
+    const auto check = aspic({"scene", "check", dir.file("rabbit.toml")});
+    EXPECT_EQ(check.exit_code, 0) << height << ": " << check.err;
+  }
 }
 
 }  // namespace

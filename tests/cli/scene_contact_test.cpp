@@ -13,6 +13,7 @@ using test::aspic;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+using Words = std::vector<std::string>;
 
 TEST(SceneContact, IsToldOfBodiesThatMayTouch) {
   const auto check = aspic({"scene", "check", "cubes-stack", "--set", "cube[0].friction=0.1"});
@@ -28,6 +29,15 @@ TEST(SceneContact, IsToldOfBodiesThatMayTouch) {
   EXPECT_THAT(check.err, Not(HasSubstr("warning")));
   const auto one = aspic({"scene", "check", "cube-plane"});
   EXPECT_THAT(one.out, AllOf(Not(HasSubstr("contact")), HasSubstr("time step")));
+}
+
+TEST(SceneCheck, NamesDampingOfSpringsThatANetLacks) {
+  const Words damped = {"scene", "check", "goal-net", "--set", "goal-net[0].shear.damping=3"};
+  EXPECT_THAT(aspic(damped).err,
+              HasSubstr("goal-net[0].shear.damping has no effect: its shear.stiffness is 0"));
+  Words stiff = damped;
+  stiff.insert(stiff.end(), {"--set", "goal-net[0].shear.stiffness=1"});
+  EXPECT_THAT(aspic(stiff).err, Not(HasSubstr("no effect")));
 }
 
 TEST(SceneContact, WarnsOfNoBuiltInScene) {
