@@ -121,6 +121,11 @@ Result<Page> make_page(const ReportPlan& plan, const Study& study, const std::ve
   }
   ASPIC_TRY(const auto model, build_model(study.scene.model));
   ASPIC_TRY(const auto own, study.run(model, study.scene.model.simulation.duration));
+  if (study.shortened() > 0)
+    page.lead += fmt::format(
+        " {} of its runs ended early, each after some seconds of computing; --thorough runs them to their "
+        "end.",
+        study.shortened());
   ASPIC_TRY(const unsigned processors, parallel::available_threads());
   page.colophon = {
       {"machine",
@@ -198,7 +203,12 @@ Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interr
   } else {
     study.no_studio = worded(studio.error(), FrontEnd::command_line);
   }
-  ASPIC_TRY(const auto page, make_page(plan, study, rows, outline));
+  const auto made = make_page(plan, study, rows, outline);
+  if (!made && made.error().code == ErrorCode::interrupted)
+    return Error{ErrorCode::interrupted,
+                 "interrupted before the report was complete; no file of it was written."};
+  if (!made) return made.error();
+  const Page& page = *made;
 
   ReportSummary summary;
   summary.no_pictures = study.no_studio;
@@ -212,6 +222,12 @@ Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interr
   summary.files = {(out / "report.html").string(), (out / "report.md").string()};
   const std::string pdf = (out / "report.pdf").string();
   summary.no_pdf = print_pdf((out / "report.html").string(), pdf);
+  if (interrupt.interrupted()) {
+    std::error_code ignored;
+    fs::remove(pdf, ignored);
+    return fail(ErrorCode::interrupted, "interrupted while {} was printed; {} and {} are complete.",
+                printable_line(pdf), printable_line(summary.files[0]), printable_line(summary.files[1]));
+  }
   if (summary.no_pdf.empty()) {
     summary.files.push_back(pdf);
     if (const auto bytes = read_file(pdf, std::uint64_t{1} << 30)) summary.pages = pages_of_pdf(*bytes);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/stability.h"
+#include "model/springs.h"
 #include "report/grid.h"
 #include "report/study.h"
 #include "scene/short_keys.h"
@@ -66,7 +67,15 @@ Result<Figure> map_figure(const Study& study, const Model& model, const ProbeSta
   const double base = present.value_or(1.0);
   const std::string axis =
       present ? fmt::format("{} [{}]", key.title, key.unit) : fmt::format("{}, over the scene's", key.title);
-  const std::size_t rows = study.thorough ? 25 : 13, columns = study.thorough ? 41 : 24;
+  const std::size_t probe_steps = study.thorough ? 480 : 240;
+  // Springs of large scenes are many: their maps are coarser.
+  constexpr double most_forces = 2e10, usual_rows = 13, usual_columns = 24;
+  const double forces = all_integrators.size() * usual_rows * usual_columns *
+                        static_cast<double>(probe_steps * spring_count(model)),
+               share = std::sqrt(std::min(1.0, most_forces / std::max(forces, 1.0)));
+  const std::size_t rows = study.thorough ? 25 : std::max<std::size_t>(5, std::lround(usual_rows * share)),
+                    columns =
+                        study.thorough ? 41 : std::max<std::size_t>(9, std::lround(usual_columns * share));
   ASPIC_TRY(const auto limits, theory(study, model, constant, 4 * (rows - 1) + 1));
   const bool bounded = limits.largest > 0.0;
   const double h = model.simulation.timestep;
@@ -91,7 +100,7 @@ Result<Figure> map_figure(const Study& study, const Model& model, const ProbeSta
       probed.simulation.integrator = integrator;
       ASPIC_TRY(const auto solver, study.make_solver()(probed));
       // A long step costs as much as many explicit ones, and damps at once what it is given.
-      const std::uint64_t count = row_of(integrator).traits.long_steps ? 30 : study.thorough ? 480 : 240;
+      const std::uint64_t count = row_of(integrator).traits.long_steps ? 30 : probe_steps;
       ASPIC_TRY(const bool grew, grows(*solver, start, count));
       stable[task / rows * cells + row * columns + column] = !grew;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <thread>
@@ -17,6 +18,17 @@ namespace aspic::report {
 namespace {
 
 constexpr PictureSize picture_size = {288, 216};
+
+/// Spring forces after which a run ends, some seconds on one processor.
+constexpr double most_evaluations = 1e9;
+
+/// Spring forces of a step, with what balls, the solve of implicit methods and a step by itself cost as many.
+double evaluations(const Model& model) {
+  constexpr double ball = 200.0, solve = 60.0, step = 1000.0;
+  const int stages = force_evaluations_per_step(model.simulation.integrator);
+  return (static_cast<double>(spring_count(model)) + ball * model.ball_count() + step) *
+         (stages > 0 ? stages : solve);
+}
 
 /// What a picture is about: particles, or balls where there are none. Balls roll far away from what they hit.
 const std::vector<Vec3>& shown_places(const State& state) {
@@ -76,17 +88,26 @@ Result<TrialResult> Study::run(const Model& model, double duration, std::span<co
   TrialOptions options;
   options.backend = backend();
   options.length.duration = duration;
+  if (const double most = longest_run(model); duration > most) {
+    options.length.duration = most;
+    ++shortened_;
+  }
   options.interval = interval;
   options.picture_times = picture_times;
   options.stop = stop_;
   return run_trial(shared(model), options);
 }
 
+double Study::longest_run(const Model& model) const {
+  if (thorough) return std::numeric_limits<double>::infinity();
+  return most_evaluations / evaluations(model) * model.simulation.timestep;
+}
+
 Result<double> Study::affordable(double wanted) const {
-  ASPIC_TRY(const auto model, build_model(scene.model));
-  constexpr double ball = 200.0, most = 4e8;  // spring evaluations: a ball's like so many, and of a run
-  const double work = static_cast<double>(spring_count(model)) + ball * model.ball_count() + 1.0;
-  const double seconds = std::floor(most / work * scene.model.simulation.timestep);
+  ASPIC_TRY(auto model, build_model(scene.model));
+  model.simulation.integrator = Integrator::symplectic_euler;  // the same whatever the scene's method
+  constexpr double most = 4e8;                                 // spring forces
+  const double seconds = std::floor(most / evaluations(model) * scene.model.simulation.timestep);
   return std::max(scene.model.simulation.duration, std::min(wanted, seconds));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // What the sections of a report share: the scene, solvers, pictures, processors.
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -40,9 +41,14 @@ class Study {
 
   /// The scene with KEY=VALUE arguments (scene/short_keys.h) applied. Errors: with_overrides.
   Result<Scene> varied(const std::vector<std::string>& assignments) const;
-  /// A run of a scene's model over `duration` [s], with states near `picture_times`.
+  /// A run of a scene's model over `duration` [s], longest_run() at most, with states near `picture_times`.
   Result<TrialResult> run(const Model& model, double duration, std::span<const double> picture_times = {},
                           double interval = sample_interval) const;
+
+  /// What some seconds of computing simulate [s]; without end if thorough.
+  double longest_run(const Model& model) const;
+  /// Runs that ended before their duration.
+  std::size_t shortened() const { return shortened_; }
 
   /// A duration of `wanted` [s], less where a run would take seconds to compute, but at least the scene's
   /// own.
@@ -62,6 +68,7 @@ class Study {
  private:
   unsigned jobs_;
   std::function<bool()> stop_;
+  mutable std::atomic<std::size_t> shortened_ = 0;
 };
 
 /// Where the centre of all particles is, or of all balls where there are none, without its height [m].

@@ -24,6 +24,18 @@ TEST(Study, RunsEveryTaskOnce) {
   for (const auto& count : done) EXPECT_EQ(count, 1);
 }
 
+TEST(Study, BoundsTheStepsOfARun) {
+  Scene scene = load_scene("cube-plane").value();
+  scene.model.simulation.timestep = 1e-9;
+  const Model model = build_model(scene.model).value();
+  const auto steps = [&](bool thorough) {
+    return Study(scene, "cube-plane", thorough, 1, {}).longest_run(model) / 1e-9;
+  };
+  EXPECT_GT(steps(false), 4000.0);
+  EXPECT_LT(steps(false), 1e6);
+  EXPECT_GT(steps(true), 4e9);
+}
+
 TEST(Study, EndsWithTheErrorOfATask) {
   const Status status = study().each(1000, [](std::size_t i) -> Status {
     if (i == 3) return fail(ErrorCode::diverged, "task {}", i);
