@@ -96,12 +96,13 @@ struct Choice {
   DeviceChoice device = DeviceChoice::automatic;
   int index = 0;
   std::string_view platform;  // "surfaceless" or "default": that alone
+  std::string_view wish;      // ASPIC_EGL_DEVICE; empty: not set
 };
 
 Result<Choice> choose(const ContextOptions& options) {
-  Choice choice{options.device, options.device_index, {}};
   const char* variable = std::getenv("ASPIC_EGL_DEVICE");
   const std::string_view wish = variable ? variable : "";
+  Choice choice{options.device, options.device_index, {}, wish};
   if (wish.empty()) return choice;
   const auto index = std::from_chars(wish.data(), wish.data() + wish.size(), choice.index);
   if (index.ec == std::errc() && index.ptr == wish.data() + wish.size() && choice.index >= 0)
@@ -237,6 +238,29 @@ Error forked_error() {
               "process. Start child processes by 'spawn', or use OpenGL in them alone.");
 }
 
+/// What is said of a device of the kind that was not asked for.
+constexpr std::string_view found_software = "a software rasteriser",
+                           found_hardware = "no software rasteriser";
+
+/// What helps where no device fits: a variable that refuses what is there, and drivers that are missing.
+std::vector<Remedy> remedies(const Choice& choice, std::string_view tried) {
+  std::vector<Remedy> all;
+  if (!choice.wish.empty())
+    all.push_back(advice(fmt::format("unset the environment variable ASPIC_EGL_DEVICE, which is \"{}\"",
+                                     printable_line(choice.wish))));
+  const auto found = [&](std::string_view kind) { return tried.find(kind) != std::string_view::npos; };
+  const char* const always = std::getenv("LIBGL_ALWAYS_SOFTWARE");
+  if (choice.device == DeviceChoice::hardware && always && found(found_software))
+    all.push_back(advice("unset the environment variable LIBGL_ALWAYS_SOFTWARE"));
+  if (!found(found_hardware))
+    all.push_back(advice("install the graphics card's OpenGL driver with its EGL part"));
+  if (!found(found_software))
+    all.push_back(
+        advice("install Mesa's software rasteriser (apt install libegl1 libegl-mesa0 libgl1-mesa-dri)"));
+  all.push_back({RemedyKind::draw_nothing, {"cpu"}});
+  return all;
+}
+
 /// An error in the words that follow a candidate's name.
 template <class... T>
 Error unfit(fmt::format_string<T...> why, T&&... arguments) {
@@ -281,7 +305,7 @@ Result<std::shared_ptr<Context>> Context::create_on(const EglCandidate& candidat
   const bool software = is_software_renderer(renderer);
   if ((candidate.demand == DeviceChoice::hardware && software) ||
       (candidate.demand == DeviceChoice::software && !software))
-    return unfit("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
+    return unfit("is {}, {}", renderer, software ? found_software : found_hardware);
   context->start(candidate.name, egl().GetProcAddress);
   return context;
 }
@@ -311,9 +335,7 @@ Result<std::shared_ptr<Context>> Context::create_headless(const ContextOptions& 
   return advised(
       fail(ErrorCode::no_device, "No usable OpenGL 4.3 core device was found without a display. Tried: {}.",
            tried.empty() ? "nothing, EGL offers no platform" : tried),
-      {advice("install the graphics card's OpenGL driver with its EGL part"),
-       advice("install Mesa's software rasteriser (apt install libegl1 libegl-mesa0 libgl1-mesa-dri)"),
-       {RemedyKind::draw_nothing, {"cpu"}}});
+      remedies(choice, tried));
 }
 
 /// Of an adopted context; an owned one has no surfaces.

@@ -102,6 +102,10 @@ TEST_F(ContextGl, GivesHardwareOrSaysWhatWasTried) {
   } else {
     EXPECT_EQ(made.error().code, ErrorCode::no_device);
     EXPECT_THAT(made.error().message(), HasSubstr("Tried: "));
+    EXPECT_THAT(made.error().message(),
+                HasSubstr("Unset the environment variable ASPIC_EGL_DEVICE, which is \"hardware\""));
+    const bool found = made.error().message().find(", a software rasteriser") != std::string::npos;
+    EXPECT_EQ(made.error().message().find("apt install libegl1") != std::string::npos, !found);
     EXPECT_THAT(made.error().message(), HasSubstr("Install"));
   }
 }
