@@ -29,7 +29,11 @@ using Words = std::vector<std::string>;
 struct Example {
   std::string where;  ///< "README.md:33", "aspic run --help"
   std::string command;
+  std::string line = {};  ///< of a page: all that stands there
 };
+
+/// Files of a reader's own: a page says in the line of the command that it needs them.
+constexpr std::string_view own_files[] = {"Configuration.txt", "my-scene.toml", "bunny.obj", "part.stl"};
 
 /// What is parsed but not run, and why.
 struct Exclusion {
@@ -110,10 +114,10 @@ std::vector<Example> examples_of_page(const fs::path& page) {
       with_scene(R"(aspic ((scene \w+|run|view|compare|report|sweep|bench) [^-]|verify --only ).*)");
   std::vector<Example> examples;
   std::ifstream file(page);
-  const auto add = [&](int line, const std::string& command) {
+  const auto add = [&](int number, const std::string& text, const std::string& command) {
     if (std::regex_search(command, program) && !is_form(command))
       examples.push_back(
-          {fs::relative(page, ASPIC_SOURCE_DIR).string() + ":" + std::to_string(line), command});
+          {fs::relative(page, ASPIC_SOURCE_DIR).string() + ":" + std::to_string(number), command, text});
   };
   bool block = false;
   int number = 0;
@@ -125,11 +129,11 @@ std::vector<Example> examples_of_page(const fs::path& page) {
       for (std::string more; line.ends_with('\\') && std::getline(file, more); ++number)
         line = line.substr(0, line.find_last_not_of(" \\") + 1) + " " +
                more.substr(std::min(more.find_first_not_of(' '), more.size()));
-      add(first, alone(line));
+      add(first, line, alone(line));
     } else {
       for (std::sregex_iterator at(line.begin(), line.end(), inline_code), end; at != end; ++at)
         if (std::regex_match(at->str(1), with_scene))
-          add(first, std::regex_replace(at->str(1), std::regex(R"(\\\|)"), "|"));  // in a table
+          add(first, line, std::regex_replace(at->str(1), std::regex(R"(\\\|)"), "|"));  // in a table
     }
   }
   return examples;
@@ -321,6 +325,25 @@ TEST(Examples, AllAreUnderstood) {
              example.where.find(exclusion.what) != std::string::npos;
     };
     EXPECT_TRUE(std::ranges::any_of(pages, meant) || std::ranges::any_of(help, meant)) << exclusion.what;
+  }
+}
+
+TEST(Examples, OfPagesSayWhatElseTheyNeed) {
+  std::set<std::string> made;
+  std::string page;
+  for (const Example& example : examples_of_pages()) {
+    const std::string here = example.where.substr(0, example.where.find(':'));
+    if (std::exchange(page, here) != here) made.clear();
+    const std::string bare = without_shell(example.command);
+    for (const std::string_view name : own_files) {
+      if (bare.find(name) != std::string::npos && !made.contains(std::string(name))) {
+        EXPECT_THAT(example.line, testing::HasSubstr("your " + std::string(name))) << example.where;
+      }
+      if (example.command.find("> " + std::string(name)) != std::string::npos) made.emplace(name);
+    }
+    if (bare.find("--page-live") != std::string::npos) {
+      EXPECT_THAT(example.line, testing::HasSubstr("scripts/wasm.sh")) << example.where;
+    }
   }
 }
 
