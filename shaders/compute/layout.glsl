@@ -246,6 +246,7 @@ struct TouchEncounter {
   float spacing;          // s [m]
   float reach;            // ρ [m]
   float depth;            // D [m]
+  float eased_depth;      // the same while bodies are eased apart [m]
   float margin;           // by which boxes of candidates are widened [m]
   float tie;              // distances that differ by less are equal [m]
   float sight;            // up to where contacts are found [m]: ρ, or more in implicit Euler

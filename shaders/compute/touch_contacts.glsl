@@ -2,9 +2,15 @@
 // places start_place(i) and stage_place(i) of particles, stage_velocity(i), at_end(), triangles and words.
 #include "compute/touch_look.glsl"
 
+// Where pushes begin by now of bodies that overlapped in the initial state.
+float back_of(TouchEncounter of) {
+  precise float back = of.start_distance + of.spacing * touch_time;
+  return back;
+}
+
 // The push of k·(ρ − d), were there no motion; of one where a step may end, in which there is motion already.
 float rest_of(TouchEncounter of, float d, float u) {
-  precise float back = of.start_distance + of.spacing * touch_time;
+  precise float back = back_of(of);
   precise float reach = back < of.reach ? back : of.reach;
   precise float rest = of.touch_stiffness * (reach - d);
   if (at_end()) rest = rest + of.touch_damping * u;
@@ -34,14 +40,15 @@ uint touch(Looker p, uint first) {
   Sight seen;
   look(p, nearest, ANY_SIDE, seen);
   precise vec4 gap;
-  if (closed ? closed_gap(seen, p.of.sight, p.of.depth, gap) : open_gap(seen, p.of.sight, gap))
+  precise float depth = back_of(p.of) < p.of.reach ? p.of.eased_depth : p.of.depth;
+  if (closed ? closed_gap(seen, p.of.sight, depth, gap) : open_gap(seen, p.of.sight, gap))
     add(p, first + count++, nearest, gap, seen.place);
   if (!closed) return count;
   for (uint side = 0u; side < TOUCH_SIDES; ++side) {
     if (side == first_side || (fronts >> side & 1u) == 0u) continue;
     uint k = nearest_of(p, side, none);
     look(p, k, side, seen);
-    if (straight_in_front(seen, p.of.sight) && closed_gap(seen, p.of.sight, p.of.depth, gap))
+    if (straight_in_front(seen, p.of.sight) && closed_gap(seen, p.of.sight, depth, gap))
       add(p, first + count++, k, gap, seen.place);
   }
   return count;

@@ -40,7 +40,7 @@ bool may_touch(Looker p, uvec4 t) {
 bool beyond(Looker p, vec3 A, vec3 B, vec3 C) {
   precise vec3 below = min(min(A, B), C) - p.place, above = p.place - max(max(A, B), C);
   precise vec3 away = max(max(below, above), vec3(0.0));
-  precise float far = max(p.of.sight, p.of.depth) + 0.01 * p.of.spacing;
+  precise float far = max(p.of.sight, p.of.eased_depth) + 0.01 * p.of.spacing;
   precise float limit = far * far;
   return dot3(away, away) > limit;
 }

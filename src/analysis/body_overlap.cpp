@@ -224,7 +224,7 @@ void add_particles_within(const Model& model, const State& state, const TouchSur
     const double deepest = deepest_within(*skins[b], places);
     if (!(deepest > 0.0)) return;
     BodyOverlap& overlap = pair_of(overlaps, points.body, faces.body);
-    overlap.most = std::max(overlap.most, touch_pair(model.contact, points, faces, false).depth);
+    overlap.most = std::max(overlap.most, touch_pair(model.contact, points, faces, false).eased_depth);
     overlap.deepest = std::max(overlap.deepest, deepest);
   };
   // Along x: of many bodies few are beside each other.
@@ -304,7 +304,7 @@ std::vector<BodyOverlap> overlaps_of(const Model& all, const State& state) {
     if (points.body == faces.body) continue;
     const TouchPair pair = touch_pair(model.contact, points, faces, false);
     BodyOverlap& overlap = pair_of(overlaps, points.body, faces.body);
-    overlap.most = std::max(overlap.most, pair.depth);
+    overlap.most = std::max(overlap.most, pair.eased_depth);
     if (touch.d < 0.0) {
       // The rule's face is the nearest of those that turn to the point; another may be nearer.
       auto& skin = skins[faces.body];

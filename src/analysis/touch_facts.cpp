@@ -25,22 +25,51 @@ std::optional<double> stack_of(const Model& model, const Body& body, const Touch
   return 0.8 * std::cbrt(7.84 * sound * sound * i_squared / g);
 }
 
+/// Whether a full cell has no full one at either of two opposite faces.
+bool one_cell_thick(const Body& body) {
+  if (!body.lattice) return false;
+  if (const Lattice* const box = body.box())
+    return std::ranges::min(box->particles) == 2 && body.style == SurfaceStyle::flesh;
+  const Lattice& lattice = *body.lattice;
+  const auto alone = [&](Lattice::Place cell, std::size_t axis) {
+    Lattice::Place before = cell, after = cell;
+    --before[axis];
+    ++after[axis];
+    return lattice.full(cell) && !lattice.full(before) && !lattice.full(after);
+  };
+  for (std::size_t n = 0; n < lattice.points(); ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (alone(lattice.place(n), axis)) return true;
+  return false;
+}
+
+/// Of the speed at which a point alone would take all energy that a sheet's push can hold, what holds with
+/// the masses behind the point.
+constexpr double sheet_share = 0.9;
+
 TouchPairing pairing_of(const Model& model, const TouchFacts& facts, std::size_t a, std::size_t b,
                         bool self) {
   const TouchKind &one = facts.kinds[a], &other = facts.kinds[b];
   const double h = model.simulation.timestep;
-  TouchPairing made = {a, b, self, touch_pair(model.contact, one.body, other.body, self), 0.0, 0.0, 0.0};
+  TouchPairing made = {a, b, self, touch_pair(model.contact, one.body, other.body, self)};
+  made.sheet_speed = std::numeric_limits<double>::infinity();
   // Nothing within an open surface pushes back what has passed its reach.
   double way = 0.5 * made.pair.spacing;
   if (!row_of(model.simulation.integrator).staged()) way = 0.3 * made.pair.spacing;
   for (const auto& [points, faces] : {std::pair(&one, &other), std::pair(&other, &one)}) {
     const TouchPair pair = touch_pair(model.contact, points->body, faces->body, self);
-    if (!faces->body.closed) way = std::min(way, pair.reach);
+    if (!faces->body.closed) {
+      way = std::min(way, pair.reach);
+      // ½·m·v² against ½·k·reach²; other points of the body push on this one.
+      made.sheet_speed = std::min(made.sheet_speed,
+                                  sheet_share * pair.reach * std::sqrt(pair.stiffness / points->body.mass));
+    }
     made.pair.reach = std::min(made.pair.reach, pair.reach);
   }
   made.step_speed = way / h;
-  const auto turned_back = [](const TouchKind& kind) { return (kind.damped ? 0.9 : 0.3) * kind.sound; };
-  made.sound_speed = std::min(turned_back(one), turned_back(other));
+  const auto [light, heavy] = std::minmax(one.body.mass, other.body.mass);
+  made.sound_speed =
+      (heavy > 2.0 * light ? 0.8 : 1.0) * std::min(one.share() * one.sound, other.share() * other.sound);
   const double omega = std::sqrt(made.pair.stiffness * (1.0 / one.body.mass + 1.0 / other.body.mass));
   made.least_zeta = 0.5 * h * omega;
   return made;
@@ -54,14 +83,16 @@ TouchFacts touch_facts(const Model& model) {
   const TouchSurfaces surfaces = touch_surfaces(model);
   for (const TouchBody& body : surfaces.bodies) {
     const std::optional<double> stack = stack_of(model, model.bodies[body.body], body);
+    const bool thin = body.closed && one_cell_thick(model.bodies[body.body]);
     const auto same = [&](const TouchKind& kind) {
-      return kind.body.alike(body) && kind.body.damping == body.damping && kind.stack == stack;
+      return kind.body.alike(body) && kind.body.damping == body.damping && kind.stack == stack &&
+             kind.thin == thin;
     };
     auto kind = std::ranges::find_if(facts.kinds, same);
     if (kind == facts.kinds.end()) {
       const double k = body.stiffness / lattice_stiffness_share;
       facts.kinds.push_back(
-          {{}, body, sound_of(body), body.damping >= 0.9 * std::sqrt(k * body.mass), stack});
+          {{}, body, sound_of(body), body.damping >= 0.9 * std::sqrt(k * body.mass), thin, stack});
       kind = facts.kinds.end() - 1;
     }
     kind->bodies.push_back(body.body);

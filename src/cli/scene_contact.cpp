@@ -39,12 +39,13 @@ std::string pairing_name(const TouchPairing& pairing, const TouchFacts& facts,
 
 /// Up to where nothing passes, and why.
 std::string speed_text(const TouchPairing& pairing, const TouchFacts& facts) {
-  if (pairing.step_speed < pairing.sound_speed)
-    return fmt::format("nothing passes up to {:.3g} m/s, by the way in a step", pairing.step_speed);
+  const std::string upto = fmt::format("nothing passes up to {:.3g} m/s, ", pairing.speed());
+  if (pairing.speed() == pairing.step_speed) return upto + "by the way in a step";
+  if (pairing.speed() == pairing.sheet_speed) return upto + "by what a push of a sheet holds";
   const TouchKind &a = facts.kinds[pairing.a], &b = facts.kinds[pairing.b];
-  const TouchKind& slower = (a.damped ? 0.9 : 0.3) * a.sound <= (b.damped ? 0.9 : 0.3) * b.sound ? a : b;
-  return fmt::format("nothing passes up to {:.3g} m/s, {} of the speed of sound {:.3g} m/s",
-                     pairing.sound_speed, slower.damped ? "0.9" : "0.3", slower.sound);
+  const TouchKind& slower = a.share() * a.sound <= b.share() * b.sound ? a : b;
+  return upto + fmt::format("{:.2g} of the speed of sound {:.3g} m/s", pairing.sound_speed / slower.sound,
+                            slower.sound);
 }
 
 std::vector<std::string> body_names(const Scene& scene) {
@@ -105,7 +106,7 @@ Json contact_json(const Scene& scene, const Model& model, const TouchFacts& fact
                      {"gap", pairing.pair.reach},
                      {"depth", pairing.pair.depth},
                      {"friction", pairing.pair.friction},
-                     {"speed", std::min(pairing.sound_speed, pairing.step_speed)}});
+                     {"speed", pairing.speed()}});
   for (std::size_t i = 0; i < limits.faces.size(); ++i)
     steps[std::string(name_of(explicit_integrators[i]))] = {{"faces", limits.faces[i].step.value_or(0.0)},
                                                             {"edges", limits.edges[i].step.value_or(0.0)}};

@@ -337,7 +337,7 @@ void Touch(const TouchTables<float>& from, TouchBatch<float>& batch) {
       all.matters[j] = counts;
       least = hn::IfThenElse(both(counts, hn::Lt(seen.L, least)), seen.L, least);
     }
-    // As far as BodyContact::enough().
+    // As far as BodyContact::enough(), where nothing is eased apart.
     const Float touching = hn::Add(hn::Max(sight, depth), tie);
     const Float nearest = hn::Add(hn::Max(least, sight), tie);
     const Float pad = hn::Add(hn::Mul(hn::Set(tag, 0.002f), pairs.of(&Constants::s)), hn::Set(tag, from.pad));

@@ -33,6 +33,7 @@ TouchConstants<T> rounded_pair(const ContactSettings& contact, const TouchBody& 
           static_cast<T>(pair.reach),
           static_cast<T>(pair.sight),
           static_cast<T>(pair.depth),
+          static_cast<T>(pair.eased_depth),
           static_cast<T>(pair.margin),
           static_cast<T>(2e-6 * pair.spacing),
           b.closed,
@@ -59,7 +60,7 @@ Vector<T> over_own(const TouchPoint& point, const Value& value) {
 /// either side and whatever else is near; 0 or less if not far.
 template <class T>
 T free_way(const Sight<T>& seen, const Face<T>& face, const TouchConstants<T>& pair, T most) {
-  const T first = std::min(most, seen.L - pair.sight), off = seen.L - pair.depth;
+  const T first = std::min(most, seen.L - pair.sight), off = seen.L - pair.eased;
   if (!pair.closed || first <= off) return first;
   // Left is a touch from inside, for which −z has to become 0.7 L. With the corners its plane moves at the
   // point's foot by κ·way, κ the sum of the foot's absolute barycentric coordinates, and N turns.
@@ -137,7 +138,10 @@ void BodyContact<T>::ease_apart(const Model& model, bool ahead) {
     const Field<double> x = field<double>(model.initial_position.list(0, model.initial_position.size()));
     const Field<double> v = Field<double>::Zero(3, x.cols());
     const Particles start = {components(x.data()), components(v.data()), 3};
-    if (!begin_step(0, start) || !find(start)) return;
+    initial_ = true;
+    const bool touching = begin_step(0, start) && find(start);
+    initial_ = false;
+    if (!touching) return;
     std::vector<Eased> eased;
     for (const Touch<T>& touch : touches_) {
       const std::uint32_t body = body_of_triangle(touch.triangle);
@@ -349,7 +353,7 @@ T BodyContact<T>::pad(const TouchConstants<T>& pair) const {
 /// Triangles farther than this [m] change nothing for a point whose nearest is `least` away.
 template <class T>
 T BodyContact<T>::enough(std::optional<T> least, const TouchConstants<T>& pair) const {
-  const T touching = std::max(pair.sight, pair.depth) + pair.tie;
+  const T touching = std::max(pair.sight, pair.eased) + pair.tie;
   return (least && *least <= touching ? std::max(*least, pair.sight) + pair.tie : touching) + pad(pair);
 }
 
@@ -467,10 +471,10 @@ double BodyContact<T>::list_first(const Looker& p, const Order& order, T most, T
 template <class T>
 void BodyContact<T>::touch(const Looker& p, Piece& piece) const {
   const bool closed = p.pair.closed;
+  const T depth = depth_of(p.near, p.pair);
   const Sight<T>* const first = nearest_of<T>(piece.sights, p.pair.tie, [](const Sight<T>&) { return true; });
   if (!first) return;
-  const auto gap =
-      closed ? closed_gap<T>(*first, p.pair.sight, p.pair.depth) : open_gap<T>(*first, p.pair.sight);
+  const auto gap = closed ? closed_gap<T>(*first, p.pair.sight, depth) : open_gap<T>(*first, p.pair.sight);
   if (gap) add(p, *first, *gap, piece);
   if (!closed) return;
   const auto next_side = [&](std::uint32_t least) {
@@ -483,7 +487,7 @@ void BodyContact<T>::touch(const Looker& p, Piece& piece) const {
     const Sight<T>& seen =
         *nearest_of<T>(piece.sights, p.pair.tie, [&](const Sight<T>& each) { return each.side == side; });
     if (straight_in_front<T>(seen, p.pair.sight))
-      add(p, seen, *closed_gap<T>(seen, p.pair.sight, p.pair.depth), piece);
+      add(p, seen, *closed_gap<T>(seen, p.pair.sight, depth), piece);
   }
 }
 
@@ -540,14 +544,28 @@ T BodyContact<T>::back(const Eased& eased, const TouchConstants<T>& pair) const 
   return eased.d + pair.s * time_;
 }
 
+/// How a point is eased apart from a body in this step; null: it is not.
+template <class T>
+const typename BodyContact<T>::Eased* BodyContact<T>::easing(const Encounter& encounter,
+                                                             const TouchConstants<T>& pair) const {
+  if (!easing_) return nullptr;
+  const auto key = [](const auto& of) { return std::tuple(of.point, of.body); };
+  const auto found = std::ranges::lower_bound(eased_, key(encounter), {}, key);
+  if (found == eased_.end() || key(*found) != key(encounter)) return nullptr;
+  return back(*found, pair) < pair.reach ? &*found : nullptr;
+}
+
 /// ρ, or what of it has come back since the initial state, in which the bodies overlapped.
 template <class T>
 T BodyContact<T>::reach_of(const Encounter& encounter, const TouchConstants<T>& pair) const {
-  if (!easing_) return pair.reach;
-  const auto key = [](const auto& of) { return std::tuple(of.point, of.body); };
-  const auto found = std::ranges::lower_bound(eased_, key(encounter), {}, key);
-  if (found == eased_.end() || key(*found) != key(encounter)) return pair.reach;
-  return std::min(back(*found, pair), pair.reach);
+  const Eased* const eased = easing(encounter, pair);
+  return eased ? back(*eased, pair) : pair.reach;
+}
+
+/// D, which is larger in the initial state and where that is eased apart.
+template <class T>
+T BodyContact<T>::depth_of(const Encounter& encounter, const TouchConstants<T>& pair) const {
+  return initial_ || easing(encounter, pair) ? pair.eased : pair.depth;
 }
 
 template <class T>

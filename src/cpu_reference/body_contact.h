@@ -218,7 +218,9 @@ class BodyContact {
   std::uint32_t body_of(std::uint32_t point) const;
   std::uint32_t body_of_triangle(std::uint32_t triangle) const;
   T back(const Eased& eased, const TouchConstants<T>& pair) const;
+  const Eased* easing(const Encounter& encounter, const TouchConstants<T>& pair) const;
   T reach_of(const Encounter& encounter, const TouchConstants<T>& pair) const;
+  T depth_of(const Encounter& encounter, const TouchConstants<T>& pair) const;
 
   TouchSurfaces surfaces_;
   TouchTable<T> table_;
@@ -231,6 +233,7 @@ class BodyContact {
   TouchSideBySide<T> side_by_side_ = nullptr;
   std::vector<Eased> eased_;  // ascending by point and body
   bool easing_ = false;       // some are in this step
+  bool initial_ = false;      // finds what is to be eased
   T time_ = T(0);             // since the initial state [s]
   std::optional<Particles> start_;
   bool laid_out_ = false;  // they are laid out as they are at the start

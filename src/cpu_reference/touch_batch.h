@@ -20,6 +20,7 @@ struct TouchConstants {
   T reach;   ///< ρ [m]
   T sight;   ///< distance up to which contacts are found [m]: ρ, or more where they are known ahead
   T depth;   ///< D [m]
+  T eased;   ///< the same while bodies are eased apart [m]
   T margin;  ///< by which the boxes of candidates are widened [m]
   T tie;     ///< distances that differ by less are equal [m]
   std::uint32_t closed;    ///< 1 where faces have an inside, else 0

@@ -18,7 +18,7 @@ static_assert(sizeof(BallItem) == 128 && offsetof(BallItem, acts) == 32 && offse
 static_assert(sizeof(BallWork) == 64 && offsetof(BallWork, word_groups) == 16);
 static_assert(sizeof(BallFacePair) == 80 && offsetof(BallFacePair, linear) == 32 &&
               sizeof(BallFaceCount) == 8);
-static_assert(sizeof(TouchEncounter) == 84 && offsetof(TouchEncounter, carrier_weight0) == 36);
+static_assert(sizeof(TouchEncounter) == 88 && offsetof(TouchEncounter, carrier_weight0) == 36);
 static_assert(sizeof(TouchRecord) == 96 && sizeof(TouchParticle) == 32);
 static_assert(sizeof(BallBody) == 16 && offsetof(BallBody, launch_step) == 8);
 static_assert(offsetof(Simulation, ball_count) == 116 && offsetof(Simulation, ball_restitution) == 128);

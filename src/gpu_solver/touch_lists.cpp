@@ -84,6 +84,7 @@ layout::TouchEncounter TouchLists::encounter_of(const reference::Encounter& near
   made.spacing = static_cast<float>(pair.spacing);
   made.reach = static_cast<float>(pair.reach);
   made.depth = static_cast<float>(pair.depth);
+  made.eased_depth = static_cast<float>(pair.eased_depth);
   made.margin = static_cast<float>(pair.margin);
   made.tie = static_cast<float>(2e-6 * pair.spacing);
   made.sight = static_cast<float>(pair.sight);

@@ -155,8 +155,11 @@ TouchPair touch_pair(const ContactSettings& contact, const TouchBody& point_of, 
   // Nothing inside an open surface pushes back what has passed its reach.
   pair.reach = (face_of.closed ? 1.0 : 2.5) * contact.body_gap * pair.spacing;
   pair.sight = pair.reach;
-  pair.depth = (same_body ? 0.5 : 1.0) * pair.spacing;
-  pair.margin = std::max(pair.depth, pair.reach) + 0.5 * pair.spacing;
+  // A point beyond the middle of a body would be pushed out of the other side: a body of one cell is s thick,
+  // less where it is compressed.
+  pair.depth = 0.25 * pair.spacing;
+  pair.eased_depth = (same_body ? 0.5 : 1.0) * pair.spacing;
+  pair.margin = std::max(pair.eased_depth, pair.reach) + 0.5 * pair.spacing;
   return pair;
 }
 

@@ -71,14 +71,15 @@ TouchSurfaces touch_surfaces(const Model& model);
 
 /// Constants of contact between a point of one body and the triangles of another, or of the same.
 struct TouchPair {
-  double stiffness = 0.0;  ///< k [N/m]
-  double damping = 0.0;    ///< c [N·s/m]
-  double friction = 0.0;   ///< μ
-  double spacing = 0.0;    ///< s [m]
-  double reach = 0.0;      ///< ρ [m]: where pushes begin
-  double sight = 0.0;      ///< up to where contacts are found [m]
-  double depth = 0.0;      ///< D [m]: where they end
-  double margin = 0.0;     ///< by which the boxes of candidates are widened [m]
+  double stiffness = 0.0;    ///< k [N/m]
+  double damping = 0.0;      ///< c [N·s/m]
+  double friction = 0.0;     ///< μ
+  double spacing = 0.0;      ///< s [m]
+  double reach = 0.0;        ///< ρ [m]: where pushes begin
+  double sight = 0.0;        ///< up to where contacts are found [m]
+  double depth = 0.0;        ///< D [m]: where they end, far from the middle of the thinnest body
+  double eased_depth = 0.0;  ///< the same of bodies that are eased apart [m]
+  double margin = 0.0;       ///< by which the boxes of candidates are widened [m]
 };
 TouchPair touch_pair(const ContactSettings& contact, const TouchBody& point_of, const TouchBody& face_of,
                      bool same_body);

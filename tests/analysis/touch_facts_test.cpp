@@ -34,7 +34,7 @@ TEST(TouchFacts, OfDefaultCubes) {
   EXPECT_NEAR(pairing.pair.stiffness, 14625.0, 1e-9);
   EXPECT_NEAR(pairing.pair.damping, 0.4 * std::sqrt(14625.0 / 2.0), 1e-9);
   EXPECT_NEAR(pairing.pair.reach, 0.4 / 9, 1e-12);
-  EXPECT_NEAR(pairing.pair.depth, 4.0 / 9, 1e-12);
+  EXPECT_NEAR(pairing.pair.depth, 1.0 / 9, 1e-12);
   EXPECT_EQ(pairing.pair.friction, 0.3);
   EXPECT_NEAR(pairing.sound_speed, 0.9 * kind.sound, 1e-9);
   EXPECT_NEAR(pairing.step_speed, 0.5 * 4.0 / 9 / 0.001, 1e-9);
@@ -70,6 +70,18 @@ TEST(TouchFacts, DependOnDampingMethodFrictionAndKind) {
       EXPECT_EQ(pairing.pair.friction, 0.3);
     }
   }
+  // Bodies of one cell, of unequal masses, and the energy of a sheet's push.
+  settings = two_default_cubes();
+  settings.cubes[0].particles_per_edge = settings.cubes[1].particles_per_edge = 2;
+  EXPECT_NEAR(touch_facts(test::build(settings)).pairings[0].speed(), 0.5 * 4.0 * std::sqrt(14625.0), 1e-9);
+  settings.cubes[1].particle_mass = 4.0;
+  settings.cubes[1].structural.damping = 120.0;
+  EXPECT_NEAR(touch_facts(test::build(settings)).pairings[0].speed(), 0.4 * 2.0 * std::sqrt(14625.0), 1e-9);
+  settings.cubes.pop_back();
+  settings.cloths = {cloth};
+  settings.contact.body_gap = 0.2;
+  const TouchPairing& sheet = touch_facts(test::build(settings)).pairings[0];
+  EXPECT_NEAR(sheet.speed(), 0.9 * 0.5 * sheet.pair.spacing * std::sqrt(sheet.pair.stiffness / 1.0), 1e-9);
   settings.contact.bodies = settings.contact.self = false;
   EXPECT_TRUE(touch_facts(test::build(settings)).pairings.empty());
 }

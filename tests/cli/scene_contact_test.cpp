@@ -22,7 +22,7 @@ TEST(SceneContact, IsToldOfBodiesThatMayTouch) {
       check.out,
       AllOf(
           HasSubstr("contact      cube[0] with cube[1], cube[2]: k 1.462e+04 N/m, c 34.21 N·s/m, ρ 0.0444 m, "
-                    "D 0.444 m, μ 0.1; nothing passes up to 48.4 m/s, 0.9 of the speed of sound 53.7 m/s"),
+                    "D 0.111 m, μ 0.1; nothing passes up to 48.4 m/s, 0.9 of the speed of sound 53.7 m/s"),
           HasSubstr("contact      cube[1], cube[2]: "), HasSubstr("μ 0.3"),
           HasSubstr("a stack of such stands up to 12.4 m high"), HasSubstr("; in contact at least 0.00"),
           HasSubstr(", edges on edges at least 0.00")));

@@ -7,6 +7,7 @@ import numpy as np
 
 YOUNGS_MODULUS_PER_STIFFNESS = 7.3125
 REST_DISTANCE = 2.1  # within one body, in spacings
+DEPTH = 0.25  # up to where pushes act inside, in spacings
 AHEAD = 0.4  # from where implicit Euler knows of contacts, in spacings
 
 
@@ -76,18 +77,18 @@ class Touch:
         self.gap, self.zeta = float(contact["body-gap"]), float(contact["body-damping"])
         self.pairs = [(a, b) for a in range(len(surfaces)) for b in range(len(surfaces))
                       if (contact["self"] if a == b else contact["bodies"])]
-        self.eased, self.steps, self.touched = {}, 0, False
+        self.eased, self.steps, self.touched, self.initial = {}, 0, False, True
         self.begin(world.x, world.v)  # overlaps in the initial state
         self.steps = 0
         for pair, point, d in zip(*(self.contacts(world.x, world.v)[key] for key in ("pair", "point", "d"))):
             self.eased[pair, point] = min(d, self.eased.get((pair, point), np.inf))
-        self.steps = -1
+        self.steps, self.initial = -1, False
 
     def constants(self, a, b):
         A, B = self.surfaces[a], self.surfaces[b]
         s = min(A.spacing, B.spacing)
         k = 2 * A.kappa * B.kappa / (A.kappa + B.kappa)
-        return k, 2 * self.zeta * np.sqrt(k / (1 / A.mass + 1 / B.mass)), s, self.gap * s, (0.5 if a == b else 1.0) * s
+        return k, 2 * self.zeta * np.sqrt(k / (1 / A.mass + 1 / B.mass)), s, self.gap * s, (0.5 if a == b else 1.0) * s  # D of bodies that are eased apart
 
     def begin(self, x, v):
         self.v0, self.steps = v, self.steps + 1
@@ -146,7 +147,10 @@ class Touch:
                 continue
             first = pick(seen)
             chosen = []
-            if (far[first] < sight if high[first] >= 0 else far[first] <= depth and -high[first] >= 0.7 * far[first]):
+            start = self.eased.get(((a, b), point), np.inf)
+            back = start + s * self.steps * self.world.h
+            deepest = depth if self.initial or back < reach else DEPTH * s
+            if (far[first] < sight if high[first] >= 0 else far[first] <= deepest and -high[first] >= 0.7 * far[first]):
                 chosen.append(first)
             for side in sorted(set(sides[begin:end]) - {sides[first]}):
                 q = pick([q for q in seen if sides[q] == side])
@@ -158,8 +162,7 @@ class Touch:
                 d = z[q] if face[q] else d
                 index = np.concatenate([A.carriers[point], B.triangles[t[q]]])
                 weight = np.concatenate([A.weights[point], -np.array([1 - wb[q] - wc[q], wb[q], wc[q]])])
-                start = self.eased.get(((a, b), point), np.inf)
-                reached = min(reach, start + s * self.steps * self.world.h)
+                reached = min(reach, back)
                 u = n @ (weight @ v[index])
                 rest = k * (reached - d) + (c * u if solve == 2 else 0.0)
                 yield {"pair": (a, b), "point": point, "index": index, "weight": weight, "n": n, "d": d, "reach": reached,
