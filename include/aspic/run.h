@@ -87,9 +87,6 @@ struct PictureOutput {
   double speed = 1.0;         ///< simulated seconds per second shown, > 0
   PictureSize size;           ///< of films and pictures
   bool text = true;           ///< parameters and time are written on them
-  /// A program that draws when it is started so, as `aspic` does for itself, and its words: to draw on
-  /// software rasterisers with all processors; empty: this one draws alone.
-  std::vector<std::string> drawer = {};
 
   /// Whether anything is drawn: a page is not.
   bool any() const { return !video.empty() || !frames.empty(); }
@@ -176,7 +173,6 @@ class ASPIC_API OverlapWatch {
 struct FrameTimes {
   std::uint64_t frames = 0;                                     ///< how many
   double simulate = 0.0, draw = 0.0, read = 0.0, encode = 0.0;  ///< in each stage [s]
-  unsigned processes = 0;                                       ///< that drew; 0: this one alone
   /// The share of one picture in a total [s]; 0 without any.
   double per_frame(double total) const { return frames > 0 ? total / static_cast<double>(frames) : 0.0; }
 };

@@ -19,11 +19,6 @@ Status execute(const RunOptions& options);
 /// The same for options with --beside.
 Status execute_comparison(const RunOptions& options);
 
-/// Draws pictures for the process that started this one: what `run` starts on software rasterisers.
-Status execute(const DrawOptions& options);
-/// The words that start it.
-std::vector<std::string> drawer_command();
-
 /// Becomes the window program, aspic-view, installed next to this one. Error (no_device): it is not there.
 Status execute(const ViewOptions& options);
 

@@ -306,9 +306,7 @@ Status execute_comparison(const RunOptions& options) {
   if (page) ASPIC_CHECK(page->begin(options, variants, pictured, clock.count()));
   std::unique_ptr<ComparisonRecorder> recorder;
   if (options.pictures.any()) {
-    PictureOutput pictures = options.pictures;
-    pictures.drawer = drawer_command();
-    ASPIC_TRY(recorder, ComparisonRecorder::create(*context, pictures, std::move(pictured), clock.count(),
+    ASPIC_TRY(recorder, ComparisonRecorder::create(*context, options.pictures, std::move(pictured),
                                                    film.take_frame_sinks()));
   }
   ASPIC_TRY(Status pictured_all,

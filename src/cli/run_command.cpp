@@ -202,10 +202,8 @@ Status execute(const RunOptions& options) {
   start.state.reset();
   std::unique_ptr<Recorder> recorder;
   if (options.pictures.any()) {
-    PictureOutput pictures = options.pictures;
-    pictures.drawer = drawer_command();
-    ASPIC_TRY(recorder,
-              Recorder::create(pictures, start.scene, backend, files.take_frame_sinks(), first_step, steps));
+    ASPIC_TRY(recorder, Recorder::create(options.pictures, start.scene, backend, files.take_frame_sinks(),
+                                         first_step, steps));
   }
   HeadlessRun headless(*backend.solver, files, first_step, options.pictures.any(), inputs);
   headless.set_watch(overlaps);

@@ -122,7 +122,6 @@ std::string to_text(const RunReport& run) {
 Json to_json(const FrameTimes& t, const std::string& device) {
   return {{"count", t.frames},
           {"device", device},
-          {"processes", t.processes},
           {"seconds_per_frame",
            {{"simulate", t.per_frame(t.simulate)},
             {"draw", t.per_frame(t.draw)},
@@ -132,13 +131,10 @@ Json to_json(const FrameTimes& t, const std::string& device) {
 
 void print_frame_times(const FrameTimes& t, const std::string& device) {
   const auto ms = [&](double seconds) { return 1000.0 * t.per_frame(seconds); };
-  const std::string drawers =
-      t.processes > 0 ? fmt::format(", drawn by {} process{}", t.processes, t.processes > 1 ? "es" : "") : "";
   print_message(fmt::format(
-      "{} picture{} on {}{}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} "
+      "{} picture{} on {}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} "
       "ms.",
-      t.frames, t.frames == 1 ? "" : "s", device, drawers, ms(t.simulate), ms(t.draw), ms(t.read),
-      ms(t.encode)));
+      t.frames, t.frames == 1 ? "" : "s", device, ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
 }
 
 std::string command_of(const std::vector<std::string>& words) {

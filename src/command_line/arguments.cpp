@@ -64,7 +64,6 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   });
   CLI::App& app = table.app;
 
-  if (argc == 2 && argv[1] == draw_word) return Command(DrawOptions{});
   // What a sweep starts: an option of no person's, and none of --help.
   table.sweep.worker =
       argc > 2 && std::string_view(argv[1]) == "sweep" && std::string_view(argv[argc - 1]) == "--worker";

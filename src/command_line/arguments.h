@@ -136,9 +136,6 @@ struct SceneImportOptions {
 struct InfoOptions {
   bool json = false;
 };
-/// What a run starts to draw its pictures; internal, not listed in --help.
-struct DrawOptions {};
-inline constexpr std::string_view draw_word = "--draw-pictures";
 /// --help, --version: text for stdout and nothing else to do.
 struct ShowText {
   std::string text;
@@ -146,7 +143,7 @@ struct ShowText {
 
 using Command = std::variant<ShowText, RunOptions, ViewOptions, CompareOptions, BenchOptions, SweepOptions,
                              ReportOptions, VerifyOptions, SceneListOptions, SceneShowOptions,
-                             SceneCheckOptions, SceneImportOptions, InfoOptions, DrawOptions>;
+                             SceneCheckOptions, SceneImportOptions, InfoOptions>;
 
 /// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
 /// yet.

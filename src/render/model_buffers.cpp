@@ -236,12 +236,6 @@ void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const Dev
       .dispatch_for(LIGHTS);
 }
 
-std::vector<std::array<float, 4>> ModelBuffers::turn_balls(const RenderPrograms& programs,
-                                                           const DeviceState& state) {
-  balls_->prepare(programs, state, bounds_);
-  return balls_->turns().download_items<std::array<float, 4>>(balls_->count());
-}
-
 namespace {
 
 void draw_elements(GLenum mode, std::uint32_t first, std::uint32_t count) {

@@ -60,8 +60,6 @@ class ModelBuffers {
   /// bound.
   void compute_light_boxes(const RenderPrograms& programs, const DeviceState& state);
 
-  /// Turns each ball to where it is in the state; how they are turned then. The frame block must be bound.
-  std::vector<std::array<float, 4>> turn_balls(const RenderPrograms& programs, const DeviceState& state);
   /// Turns the balls as they were found to be at this step.
   void set_ball_turns(const std::vector<std::array<float, 4>>& turns, std::uint64_t step) {
     balls_->set_turns(turns, step);

@@ -36,12 +36,6 @@ struct RendererOptions {
 /// How a ball is turned: a quaternion, its real part last.
 using BallTurn = std::array<float, 4>;
 
-/// How the balls of a model were turned in a picture.
-struct TurnedBalls {
-  std::vector<BallTurn> turns;  ///< empty: there was no picture yet
-  std::uint64_t step = 0;       ///< that it showed
-};
-
 /// What a picture shows besides the particles.
 struct PictureOptions {
   ViewSettings view;
@@ -89,11 +83,6 @@ class Renderer {
   /// The same for a state that packed_particles() and packed_balls() made ready.
   Result<DeviceState> upload(std::vector<layout::Particle> particles, std::vector<layout::Ball> balls,
                              std::uint64_t step);
-
-  /// Turns balls from where they were in one picture to where they are in the next, that of this state, as
-  /// drawing both would: for PictureOptions::ball_turns of renderers that draw some of a run's pictures only.
-  /// Waits for the device. Legal after set_model. Error (no_device): the context cannot be entered.
-  Status turn_balls(const DeviceState& state, TurnedBalls& balls);
 
   /// Draws width × height pixels of a state of the model. Balls appear turned by what they have rotated since
   /// the model was set, as far as the pictures drawn since then tell. Legal after set_model. Errors:

@@ -58,15 +58,4 @@ Result<DeviceState> Renderer::upload(std::vector<layout::Particle> particles, st
   return there;
 }
 
-Status Renderer::turn_balls(const DeviceState& state, TurnedBalls& balls) {
-  Parts& p = *parts_;
-  const gl::Current here(*p.context);
-  ASPIC_CHECK(here.status());
-  assert(p.model);
-  p.bind_frame(p.drawn_frame);
-  if (!balls.turns.empty()) p.buffers->set_ball_turns(balls.turns, balls.step);
-  balls = {p.buffers->turn_balls(p.programs, state), state.step};
-  return {};
-}
-
 }  // namespace aspic

@@ -11,7 +11,7 @@
 namespace aspic {
 
 Result<std::unique_ptr<ComparisonRecorder>> ComparisonRecorder::create(
-    gl::Context& context, const PictureOutput& output, std::vector<PicturedRun> runs, std::uint64_t pictures,
+    gl::Context& context, const PictureOutput& output, std::vector<PicturedRun> runs,
     std::vector<std::unique_ptr<FrameSink>> sinks) {
   std::unique_ptr<ComparisonRecorder> r(new ComparisonRecorder());
   r->output_ = output;
@@ -24,7 +24,7 @@ Result<std::unique_ptr<ComparisonRecorder>> ComparisonRecorder::create(
     painted.push_back({part.run.scene, &solver.model()});
     r->parts_.push_back(std::move(part));
   }
-  ASPIC_TRY(r->film_, FilmPainter::create(context, output, std::move(painted), pictures, std::move(sinks)));
+  ASPIC_TRY(r->film_, FilmPainter::create(context, output, std::move(painted), std::move(sinks)));
   return r;
 }
 

@@ -27,11 +27,10 @@ struct PicturedRun {
 class ComparisonRecorder {
  public:
   /// Draws in `context`, the one of all backends that need one. The sinks have the
-  /// size of `output`. One to most_compared runs. `pictures`: in all, as planned. Errors: as
+  /// size of `output`. One to most_compared runs. Errors: as
   /// Recorder::create().
   static Result<std::unique_ptr<ComparisonRecorder>> create(gl::Context& context, const PictureOutput& output,
                                                             std::vector<PicturedRun> runs,
-                                                            std::uint64_t pictures,
                                                             std::vector<std::unique_ptr<FrameSink>> sinks);
 
   /// Adds a picture of the runs' states: run i is at `steps[i]`, and diverged in the step after if

@@ -94,8 +94,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   ASPIC_TRY(const PictureContext made, picture_context(backend));
   parts->own_context = made.own;
   parts->following = Following(scene, model, backend.solver->precision());
-  ASPIC_TRY(parts->film, FilmPainter::create(*made.context, output, {{&scene, &model}}, schedule.count(),
-                                             std::move(sinks)));
+  ASPIC_TRY(parts->film, FilmPainter::create(*made.context, output, {{&scene, &model}}, std::move(sinks)));
   return std::unique_ptr<Recorder>(new Recorder(std::move(parts)));
 }
 

@@ -1,7 +1,6 @@
 #include "run/recording.h"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <new>
 
@@ -86,26 +85,6 @@ Status Recording::add(const gl::Framebuffer& picture, std::uint64_t copies) {
   return {};
 }
 
-void Recording::add(std::span<const std::byte> rgb, std::uint64_t copies, std::shared_ptr<const void> owner) {
-  assert(ring_.pending() == 0);
-  pictures_ += copies;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!completed_) waiting_.push_back({{}, rgb, std::move(owner), copies});
-  }
-  changed_.notify_all();
-}
-
-void Recording::wait_until(const std::function<bool()>& done) {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return done() || completed_; });
-}
-
-Status Recording::hand_on_all() {
-  while (ring_.pending() > 0) ASPIC_CHECK(hand_on());
-  return {};
-}
-
 Status Recording::progress() {
   return ring_.pending() > 0 ? hand_on() : Status();
 }
@@ -123,9 +102,11 @@ void Recording::end() {
 }
 
 Status Recording::end_complete() {
-  if (const Status read = hand_on_all(); !read) {
-    abandon();
-    return read;
+  while (ring_.pending() > 0) {
+    if (const Status read = hand_on(); !read) {
+      abandon();
+      return read;
+    }
   }
   end();
   return {};
@@ -179,10 +160,9 @@ bool Recording::carry_out(std::unique_ptr<FrameSink>& sink, const Work& work) {
 }
 
 void Recording::write(const Picture& picture) {
-  const std::span<const std::byte> rgb = picture.owner ? picture.shared : std::span(picture.pixels);
   for (auto& sink : sinks_) {
     for (std::uint64_t i = 0; sink && i < picture.copies; ++i)
-      carry_out(sink, [&](FrameSink& to) { return to.write(rgb); });
+      carry_out(sink, [&](FrameSink& to) { return to.write(picture.pixels); });
   }
 }
 
@@ -203,9 +183,6 @@ void Recording::encode() {
     const double took = seconds_since(before);
     lock.lock();
     encode_seconds_ += took;
-    if (!picture.owner) continue;
-    picture.owner.reset();
-    changed_.notify_all();
   }
   const bool complete = !abandoned_;
   lock.unlock();

@@ -2,10 +2,8 @@
 // Pictures on their way to the disk: read back from the device, encoded by a thread of its own.
 #include <condition_variable>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -49,13 +47,6 @@ class Recording {
   /// Adds a picture of the options' size, `copies` ≥ 1 times; legal until end(). Error (no_device): the
   /// device was lost.
   Status add(const gl::Framebuffer& picture, std::uint64_t copies);
-  /// The same for a picture in memory, as FrameSink::write takes it. `owner` keeps it there and goes, on any
-  /// thread, once it is encoded or lost. Legal while no picture is on the device.
-  void add(std::span<const std::byte> rgb, std::uint64_t copies, std::shared_ptr<const void> owner);
-  /// Waits until `done`, which is asked again whenever an owner has gone, or the recording is completed.
-  void wait_until(const std::function<bool()>& done);
-  /// Hands all pictures on the device to the encoder. Error as add().
-  Status hand_on_all();
 
   /// Hands the oldest picture on the device to the encoder, if there is one: once for each of the window's
   /// pictures that is none of the film's. Error as add().
@@ -83,9 +74,7 @@ class Recording {
   Recording(gl::Context& context, gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks,
             FilmOptions options);
   struct Picture {
-    std::vector<std::byte> pixels;      // or
-    std::span<const std::byte> shared;  // somebody else's
-    std::shared_ptr<const void> owner;
+    std::vector<std::byte> pixels;
     std::uint64_t copies = 1;
   };
   Status hand_on();
