@@ -20,9 +20,9 @@ class CountingSolver final : public Solver {
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return *model_; }
   std::uint64_t bytes() const override { return 0; }
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
+  Result<Advance> advance(std::uint64_t steps) override {
     made += steps;
-    return std::optional<Divergence>();
+    return Advance{.steps = steps};
   }
 
   std::uint64_t made = 0, reads = 0, waits = 0;
@@ -35,7 +35,7 @@ class CountingSolver final : public Solver {
     return made;
   }
   Status take_inputs(const Inputs&) override { return {}; }
-  Status take_constants(SharedModel) override { return {}; }
+  Status take_constants(SharedModel, std::uint64_t) override { return {}; }
   SharedModel model_;
 };
 

@@ -123,7 +123,7 @@ Impact impact(const ImpactKind& kind, double share, std::uint64_t seed) {
   Impact result;
   const auto end = static_cast<std::uint64_t>((2.5 * way / speed + 0.4) / settings.simulation.timestep);
   for (std::uint64_t step = 0; step < end; step += 20) {
-    EXPECT_FALSE((*solver->advance(20)).has_value());
+    EXPECT_FALSE((*solver->advance(20)).divergence.has_value());
     state = *solver->state();
     result.rise = std::max(result.rise, measure(model, state).total() / start);
   }
