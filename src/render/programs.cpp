@@ -18,12 +18,12 @@ void RenderProgram::start() const {
 const gl::Program& RenderProgram::get() const {
   static const gl::Program nothing;
   if (!ready_) {
-    ready_ = true;
     gl::ProgramCache& programs = source_->context.programs();
     auto made = program_ ? Result(program_) : programs.start(source_->library, stages_, defines_);
     const Status finished = made ? programs.finish(*made) : Status(made.error());
-    program_ = finished ? *made : nullptr;
-    if (!finished && source_->refused) source_->refused = finished;
+    ready_ = finished.ok();
+    program_ = ready_ ? *made : nullptr;
+    if (!ready_ && source_->refused) source_->refused = finished;
   }
   return program_ ? *program_ : nothing;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "aspic/scene.h"
@@ -17,11 +18,13 @@ namespace aspic {
 /// A program that is compiled when it is first used, or together with others from start() on.
 class RenderProgram {
  public:
-  /// Where programs are made, and the first that could not be.
+  /// Where programs are made, and the first error of those that could not be.
   struct Source {
     gl::Context& context;
     gl::ShaderLibrary library;
     Status refused = {};
+    /// The error since this was last asked.
+    Status take_refused() { return std::exchange(refused, Status()); }
   };
 
   RenderProgram() = default;
@@ -31,7 +34,7 @@ class RenderProgram {
 
   /// Begins to compile it.
   void start() const;
-  /// An empty program where the device refuses it; Source::refused says why.
+  /// An empty program where the device refuses it; Source::refused says why, and the next call tries again.
   const gl::Program& get() const;
   operator const gl::Program&() const { return get(); }
   std::uint32_t id() const { return get().id(); }

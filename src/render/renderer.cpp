@@ -183,7 +183,7 @@ Status Renderer::Parts::start(int width, int height, const DeviceState& state,
 /// The picture is complete.
 Status Renderer::Parts::finish() {
   if (profiler) profiler->end();
-  const Status written = drawing->written ? programs.source->refused : drawing->written;
+  const Status written = drawing->written ? programs.source->take_refused() : drawing->written;
   drawing.reset();
   earlier.reset();
   leave();
@@ -247,6 +247,7 @@ Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
   }
   p.picker->submit(++p.picks, *p.model, *p.buffers, *p.drawn_state, p.drawn_view,
                    p.drawn_view.cut.on() ? p.section.get() : nullptr, p.drawn_frame, place);
+  ASPIC_CHECK(p.programs.source->take_refused());
   return p.picks;
 }
 
@@ -268,7 +269,7 @@ Result<QuantityRange> Renderer::range_of(const DeviceState& state, const ViewSet
   const FrameContent content = {view, alone, p.has(SurfaceStyle::flesh), false, state.step, 0.0f};
   p.bind_frame(frame_block(*p.model, Camera(view.camera, 1, 1), 1, 1, content));
   p.buffers->compute_quantity(p.programs, state);
-  ASPIC_CHECK(p.programs.source->refused);
+  ASPIC_CHECK(p.programs.source->take_refused());
   return p.measured_range(view);
 }
 
@@ -327,7 +328,7 @@ Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_
   glDisable(GL_SCISSOR_TEST);
   glUseProgram(0);
   glBindVertexArray(0);
-  return drawn;
+  return drawn ? p.programs.source->take_refused() : drawn;
 }
 
 void Renderer::set_profiling(bool on) {

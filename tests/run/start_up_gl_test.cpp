@@ -6,6 +6,7 @@
 #include "render/renderer.h"
 #include "support/gl_calls.h"
 #include "support/gl_fixture.h"
+#include "support/temporary_directory.h"
 
 namespace aspic {
 namespace {
@@ -66,6 +67,29 @@ TEST_F(StartUp, BeginsAllProgramsBeforeItWaitsAndCompilesFew) {
     ASSERT_TRUE((*another)->draw(64, 36, (*again)->device_state(), options).ok());
     EXPECT_EQ(calls.links(), compiled) << "programs are shared within a context";
   }
+}
+
+TEST_F(StartUp, APictureNamesTheShaderThatIsRefusedUntilItIsMended) {
+  const test::TemporaryDirectory directory;
+  std::filesystem::create_directory(directory.path() / "render");
+  directory.write("render/sky.frag", "\nvoid main() { misspelt; }\n");
+  const Scene scene = load_scene("cube-plane").value();
+  const Model model = build_model(scene.model).value();
+  const auto renderer = Renderer::create(context(), {.shaders = gl::ShaderLibrary(directory.path())});
+  ASSERT_TRUE(renderer.ok()) << renderer.error().message();
+  ASSERT_TRUE((*renderer)->set_model(model).ok());
+  const auto state = (*renderer)->upload(initial_state(model, Precision::single));
+  ASSERT_TRUE(state.ok());
+  PictureOptions options;
+  options.view = scene.view;
+  const Status refused = (*renderer)->draw(64, 36, *state, options);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::no_device);
+  EXPECT_THAT(refused.error().message(), ::testing::HasSubstr("render/sky.frag:2: error"));
+  EXPECT_GE(forgive_errors(), 1);
+  std::filesystem::remove(directory.path() / "render/sky.frag");
+  const Status mended = (*renderer)->draw(64, 36, *state, options);
+  EXPECT_TRUE(mended.ok()) << mended.error().message();
 }
 
 }  // namespace
