@@ -49,12 +49,16 @@ void set_environment(std::uint64_t) {}
 }  // namespace
 
 // Neither is inline: a call keeps the caller's operations on their side of the change.
-FlushDenormals::FlushDenormals() : before_(environment()) {
+FlushDenormals::FlushDenormals(bool on) : before_(on ? environment() : ours) {
   if (before_ != ours) set_environment(ours);
 }
 
 FlushDenormals::~FlushDenormals() {
   if (before_ != ours) set_environment(before_);
+}
+
+bool FlushDenormals::is_on() {
+  return (environment() & ours) == ours;
 }
 
 bool flushes_denormals() {

@@ -11,10 +11,14 @@ namespace aspic {
 /// (WebAssembly has no such mode).
 class FlushDenormals {
  public:
-  FlushDenormals();
+  /// False: changes nothing.
+  explicit FlushDenormals(bool on = true);
   ~FlushDenormals();
   FlushDenormals(const FlushDenormals&) = delete;
   FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+  /// Whether one lives on this thread, or on the one that started it at that time.
+  static bool is_on();
 
  private:
   std::uint64_t before_ = 0;

@@ -73,6 +73,7 @@ Workers::~Workers() {
 void Workers::run(std::size_t pieces, const std::function<void(std::size_t)>& task) {
   if (helped_) return run_with_helpers(pieces, task);
   revive();
+  flush_ = FlushDenormals::is_on();
   task_ = &task;
   pieces_ = pieces;
   next_.store(0, std::memory_order_relaxed);
@@ -92,6 +93,7 @@ unsigned Workers::current_thread() {
 }
 
 void Workers::run_with_helpers(std::size_t pieces, const std::function<void(std::size_t)>& task) {
+  flush_ = FlushDenormals::is_on();
   task_ = &task;
   left_.store(static_cast<std::uint32_t>(pieces), std::memory_order_relaxed);
   tickets_.store(std::uint64_t{pieces} << 32, std::memory_order_release);
@@ -108,7 +110,10 @@ void Workers::take_tickets() {
     const std::uint64_t ticket = tickets_.fetch_add(1, std::memory_order_acq_rel);
     const std::uint64_t n = ticket & 0xffffffff;
     if (n >= ticket >> 32) return;  // also a ticket of a run that is over: its task is not touched
-    (*task_)(n);
+    {
+      const FlushDenormals flush(flush_);
+      (*task_)(n);
+    }
     left_.fetch_sub(1, std::memory_order_acq_rel);
     left_.notify_one();
   }
@@ -130,13 +135,13 @@ void Workers::release() {
 }
 
 void Workers::take_pieces() {
+  const FlushDenormals flush(flush_);
   for (std::size_t n = next_.fetch_add(1, std::memory_order_relaxed); n < pieces_;
        n = next_.fetch_add(1, std::memory_order_relaxed))
     (*task_)(n);
 }
 
 void Workers::work(unsigned index) {
-  const FlushDenormals flush;
   number_in_pool = index;
   for (std::uint32_t round = 0;;) {
     wait_while(round_, round);

@@ -54,6 +54,7 @@ class Workers {
   std::uint64_t forks_ = 0;  // of the process that the threads are in
   std::vector<std::jthread> others_;
   const std::function<void(std::size_t)>* task_ = nullptr;
+  bool flush_ = false;  // denormal numbers in tasks, as on the thread that calls run()
   std::size_t pieces_ = 0;
   std::atomic<std::size_t> next_ = 0;        // piece to take
   std::atomic<std::uint32_t> round_ = 0;     // counts calls of run()
