@@ -89,7 +89,7 @@ std::optional<std::uint64_t> cpu_bytes(const Model& model) {
   const std::optional<std::uint64_t> memory = available_memory();
   if (memory && run_bytes(count(model)) > *memory) return std::nullopt;
   // The solver is destroyed before the caller's model, so it need not own it.
-  const auto solver = make_cpu_solver(SharedModel(SharedModel(), &model), {.threads = 1});
+  const auto solver = make_cpu_solver(SharedModel(SharedModel(), &model));
   if (!solver) return std::nullopt;
   return (*solver)->bytes();
 }
