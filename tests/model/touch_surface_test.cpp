@@ -108,9 +108,9 @@ TEST(TouchSurface, PairsHaveTheirConstants) {
   EXPECT_DOUBLE_EQ(pair.damping, std::sqrt(pair.stiffness * 0.75));  // 1/(1/1 + 1/3)
   EXPECT_DOUBLE_EQ(pair.spacing, 0.2);
   EXPECT_DOUBLE_EQ(pair.reach, 0.02);
-  EXPECT_DOUBLE_EQ(pair.depth, 0.2);
+  EXPECT_DOUBLE_EQ(pair.depth, 0.05);
   EXPECT_DOUBLE_EQ(pair.margin, 0.3);
-  EXPECT_DOUBLE_EQ(touch_pair(contact, soft, soft, true).depth, 0.2);
+  EXPECT_DOUBLE_EQ(touch_pair(contact, soft, soft, true).depth, 0.1);
   hard.closed = false;
   EXPECT_DOUBLE_EQ(touch_pair(contact, soft, hard, false).reach, 0.05);
   EXPECT_DOUBLE_EQ(touch_pair(contact, hard, soft, false).reach, 0.02);
