@@ -18,7 +18,7 @@ bool is_root(uint fraction, bool odd, uint bits) {
   if (bits >> 23 != 127u) return false;
   uint M = fraction | 0x800000u;
   uint G = (bits & 0x7fffffu) | 0x800000u;
-  uint square_high, square_low, borrow;
+  uint square_high = 0u, square_low = 0u, borrow = 0u;
   umulExtended(G, G, square_high, square_low);
   uint low = usubBorrow(odd ? M << 24 : M << 23, square_low, borrow);
   uint high = (odd ? M >> 8 : M >> 9) - square_high - borrow;
@@ -32,7 +32,7 @@ bool is_reciprocal(uint b_bits, uint bits) {
   if (exponent != 126u && exponent != 127u) return false;
   uint Y = ((bits & 0x7fffffu) | 0x800000u) << (exponent - 126u);
   uint B = (b_bits & 0x7fffffu) | 0x800000u;
-  uint high, low;
+  uint high = 0u, low = 0u;
   umulExtended(2u * Y, B, high, low);
   return high + (low >> 31) == 0x10000u && abs(int(low)) < int(B);
 }

@@ -168,14 +168,19 @@ TEST_F(CanaryGl, CountsWrongMantissas) {
     EXPECT_EQ(found->exact(), exact);
     EXPECT_EQ(found->tried, 1u << 24);
     EXPECT_EQ(found->wrong_roots, exact ? 0 : expected.roots);
-    EXPECT_EQ(found->wrong_reciprocals, exact ? 0 : expected.reciprocals_of_roots);
+    // A wrong root can be another number on the device, whose reciprocal then differs as well.
+    const auto difference = static_cast<std::int64_t>(found->wrong_reciprocals) -
+                            static_cast<std::int64_t>(exact ? 0 : expected.reciprocals_of_roots);
+    EXPECT_LE(std::abs(difference), static_cast<std::int64_t>(exact ? 0 : expected.roots));
   }
   EXPECT_FALSE(MantissaReport{}.exact()) << "nothing was tried";
 }
 
 TEST_F(CanaryGl, TakesTheQuickFormOfFewestStepsThatIsExact) {
-  const auto steps_chosen = [&](const char* ulps, const char* rare) {
-    const Arithmetic choice = choose({{"FAULT_DIV", ulps}, {"FAULT_RARE", rare}, {"FAULT_FUSED", "1"}});
+  const auto steps_chosen = [&](const char* ulps, const char* rare, bool fused = true) {
+    std::vector<Define> faults = {{"FAULT_DIV", ulps}, {"FAULT_RARE", rare}};
+    if (fused) faults.push_back({"FAULT_FUSED", "1"});
+    const Arithmetic choice = choose(std::move(faults));
     EXPECT_TRUE(choice.exact());
     const auto quick = std::ranges::find(choice.defines, "ASPIC_QUICK", &Define::name);
     const bool slow = quick == choice.defines.end();
@@ -186,7 +191,7 @@ TEST_F(CanaryGl, TakesTheQuickFormOfFewestStepsThatIsExact) {
   };
   EXPECT_EQ(steps_chosen("1", "0xffffu"), "1");
   EXPECT_EQ(steps_chosen("1", "0u"), "2");
-  EXPECT_EQ(steps_chosen("30000", "0xfffffu"), "slow");
+  EXPECT_EQ(steps_chosen("1", "0u", false), "slow") << "fma rounds twice";
 }
 
 TEST_F(CanaryGl, OnlyWhatIsWrongIsCorrected) {
