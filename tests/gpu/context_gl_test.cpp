@@ -106,7 +106,7 @@ TEST_F(ContextGl, GivesHardwareOrSaysWhatWasTried) {
                 HasSubstr("Unset the environment variable ASPIC_EGL_DEVICE, which is \"hardware\""));
     const bool found = made.error().message().find(", a software rasteriser") != std::string::npos;
     EXPECT_EQ(made.error().message().find("apt install libegl1") != std::string::npos, !found);
-    EXPECT_THAT(made.error().message(), HasSubstr("Install"));
+    EXPECT_THAT(made.error().message(), HasSubstr("install the graphics card's OpenGL driver"));
   }
 }
 
