@@ -7,12 +7,14 @@
 
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "gpu/canary.h"
 #include "gpu/portable_lint.h"
 #include "gpu_solver/gpu_solver.h"
 #include "model/terrain.h"
+#include "render/programs.h"
 #include "render/studio.h"
 #include "support/kernel_variants.h"
 #include "support/temporary_directory.h"
@@ -61,37 +63,42 @@ class Glslang : public aspic::testing::GlTest {
  protected:
   void SetUp() override {
     GlTest::SetUp();
+    // Other tests' context has compiled much of this already.
+    auto made = gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
+    ASSERT_TRUE(made.ok()) << made.error().message();
+    own_ = std::move(made).value();
     driver_shader_source = std::exchange(glad_glShaderSource, record);
     driver_compile_shader = std::exchange(glad_glCompileShader, compile);
   }
   void TearDown() override {
     glad_glShaderSource = driver_shader_source;
     glad_glCompileShader = driver_compile_shader;
+    own_.reset();
     GlTest::TearDown();
   }
 
   /// Compiles what solvers need.
-  static void compile_solvers() {
+  void compile_solvers() {
     std::set<std::size_t> arithmetic;  // by number of defines
     for (const test::KernelVariant& variant : test::kernel_variants()) {
       const Model model = test::build(variant.settings);
-      const auto solver = make_gpu_solver(context(), model, variant.options);
+      const auto solver = make_gpu_solver(*own_, model, variant.options);
       ASSERT_TRUE(solver.ok()) << solver.error().message();
       const std::vector<gl::Define>& defines = variant.options.arithmetic->defines;
       if (!arithmetic.insert(defines.size()).second) continue;
-      ASSERT_TRUE(gl::measure_arithmetic(context(), gl::ShaderLibrary{}, defines).ok());
-      ASSERT_TRUE(gl::try_mantissas(context(), gl::ShaderLibrary{}, defines).ok());
+      ASSERT_TRUE(gl::measure_arithmetic(*own_, gl::ShaderLibrary{}, defines).ok());
+      ASSERT_TRUE(gl::try_mantissas(*own_, gl::ShaderLibrary{}, defines).ok());
     }
   }
 
-  static void compile_pictures() {
+  void compile_pictures() {
     ModelSettings settings = test::cube_on_plane(3);
     settings.balls.emplace_back();
     settings.goal_nets.emplace_back();
     settings.terrain.clear();
     for (const TerrainShapeRow& shape : terrain_shapes) settings.terrain.emplace_back().shape = shape.value;
     const Model model = test::build(settings);
-    auto renderer = Renderer::create(context());
+    auto renderer = Renderer::create(*own_);
     ASSERT_TRUE(renderer.ok()) << renderer.error().message();
     ASSERT_TRUE((*renderer)->set_model(model).ok());
     const auto state = (*renderer)->upload(initial_state(model, Precision::single));
@@ -103,11 +110,19 @@ class Glslang : public aspic::testing::GlTest {
     options.view.cut.inside = CutInside::section;
     options.view.arrows.net = true;
     options.arrows.arrows = {{{}, {0.0, 1.0, 0.0}, ArrowKind::net}};
-    options.highlight.emplace().hovered = 0;
+    options.highlight.emplace() = {.hovered = 0, .pull = HighlightOptions::Pull{}};
     options.text = {{"label", "value"}};
     ASSERT_TRUE((*renderer)->draw(64, 48, *state, options).ok());
     ASSERT_TRUE((*renderer)->request_pick({1.0, 1.0, 64.0, 48.0}).ok());
+    // What this picture does without.
+    const RenderPrograms p = RenderPrograms::create(*own_, gl::ShaderLibrary());
+    for (const RenderProgram* const program :
+         {&p.mesh_skin, &p.mesh_normals, &p.rods, &p.sheet, &p.glass, &p.reference_ground, &p.halve[0],
+          &p.halve[1], &p.plane[0], &p.plane[1], &p.cut_plane[0], &p.cut_plane[1], &p.present, &p.ghost})
+      EXPECT_NE(program->id(), 0u);
   }
+
+  std::shared_ptr<gl::Context> own_;
 
   /// What the compiler says of the files, by name; empty if it accepts them all.
   static std::string complaints(const test::TemporaryDirectory& directory) {
