@@ -12,12 +12,13 @@ aspic_install_packages libgtest-dev libgmock-dev
 aspic_build ON aspic gl_tests
 rm -rf "$kit"
 tree=$kit/tree  # what the tests read lies where it is in the checkout
-mkdir -p "$kit/lib/cxx" "$kit/lib/loader" "$tree/build/release" "$tree/bench" "$tree/tests/data" "$tree/tests/gpu"
+mkdir -p "$kit/lib/cxx" "$kit/lib/loader" "$tree/build/release" "$tree/bench/results/h200" "$tree/tests/data" "$tree/tests/gpu"
 cp "$aspic_root/LICENSE" "$aspic_root"/bench/kit/{run.sh,report.awk} "$kit"
 cp -r "$aspic_root/bench/peers" "$tree/bench"
 cp -r "$aspic_root/shaders" "$tree"
 cp -r "$aspic_root/tests/gpu/shaders" "$tree/tests/gpu"
 cp "$aspic_root/tests/data/hashes.json" "$tree/tests/data"
+cp "$aspic_root/bench/results/h200/hashes.csv" "$tree/bench/results/h200"
 cp "$aspic_build_dir/gl_tests.txt" "$tree"
 echo "$aspic_root" >"$tree/root.txt"
 { cut -d ' ' -f 1 "$tree/gl_tests.txt"; printf '%s\n' aspic tests/run/aspic_test_drawer; } | while read -r program; do
