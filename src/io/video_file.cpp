@@ -96,11 +96,12 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Fil
   words.insert(words.end(), {fmt::format("{}x{}", size.width, size.height), "-framerate",
                              fmt::format("{}", fps), "-i", "pipe:0", "-an"});
   if (format.even_sides) {
-    // sRGB in, BT.709 video range out.
-    words.insert(
-        words.end(),
-        {"-vf", "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd,format=yuv420p", "-colorspace",
-         "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv"});
+    // sRGB in, BT.709 video range out. New versions of ffmpeg take primaries and transfer from the pictures.
+    words.insert(words.end(), {"-vf",
+                               "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd,format=yuv420p,"
+                               "setparams=color_primaries=bt709:color_trc=iec61966-2-1",
+                               "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc",
+                               "iec61966-2-1", "-color_range", "tv"});
   }
   words.insert(words.end(), format.ffmpeg.begin(), format.ffmpeg.end());
   words.push_back("file:" + file.temporary_path());

@@ -185,6 +185,17 @@ TEST(Video, FailingFfmpegIsQuoted) {
   EXPECT_EQ(dir.entries(), 0u);
 }
 
+// ffmpeg 7 and later take these two from the pictures, and no option sets them.
+TEST(Video, NamesItsColoursInTheFilterAndInTheOptions) {
+  const test::TemporaryDirectory bin, dir;
+  bin.write("ffmpeg", "#!/bin/sh\necho \"$@\" >&2\nexit 7\n");
+  ::chmod(bin.file("ffmpeg").c_str(), 0755);
+  const auto run = aspic(film_words({"--steps", "20", "--video", dir.file("v.mp4")}),
+                         software(bin.path().string() + ":/usr/bin:/bin"));
+  EXPECT_THAT(run.err, HasSubstr("setparams=color_primaries=bt709:color_trc=iec61966-2-1"));
+  EXPECT_THAT(run.err, HasSubstr("-color_primaries bt709 -color_trc iec61966-2-1"));
+}
+
 TEST(Video, AFullDiskLeavesNothingThatLooksWhole) {
   const test::TemporaryDirectory dir;
   ProcessOptions options = software();
