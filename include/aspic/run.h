@@ -44,8 +44,7 @@ struct BackendChoice {
 };
 
 /// A backend with its options after colons: "gpu:per-spring", "reference:double", "cpu:fast". What the text
-/// leaves open is as in `asked`, where the backend has it. Error (usage): an unknown word, with those
-/// allowed.
+/// leaves open is as in `asked`, where the backend has it. Error (usage): an unknown word.
 ASPIC_API Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& asked = {});
 
 /// Every word of parse_backend(): "auto, gpu, reference".
@@ -142,25 +141,30 @@ class ASPIC_API RunFiles {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Tells of bodies that are within each other: once for each pair. Calls may come from any thread, one at a
-/// time.
-class ASPIC_API OverlapWatch {
+/// A warning about a scene or a run, given once for each place.
+struct Diagnostic {
+  std::string id;      ///< what kind it is, for programs: "overlap", "flat-cells" (docs/commands.md)
+  std::string where;   ///< the first body: "cube[0]"; may be empty
+  std::string text;    ///< what was found, where and when; no full stop
+  std::string advice;  ///< what it means and what to do, likewise; may be empty
+  ASPIC_API std::string sentence() const;  ///< the text, then the advice
+};
+
+/// Watches a run for bodies within each other or terrain, lengths and speeds that it does not resolve, flat
+/// cells and energy from nowhere. Calls may come from any thread, one at a time.
+class ASPIC_API RunWatch {
  public:
-  /// Of a run of this model, which is that of the settings; needs neither later. `starts`: in its initial
-  /// state.
-  OverlapWatch(const ModelSettings& settings, const Model& model, bool starts = true);
-  OverlapWatch(OverlapWatch&&) noexcept;
-  OverlapWatch& operator=(OverlapWatch&&) noexcept;
-  ~OverlapWatch();
+  /// Needs model and settings no later. `starts`: the run starts in the model's initial state.
+  RunWatch(const ModelSettings& of, const Model& model, bool starts = true, Precision = Precision::single);
+  RunWatch(RunWatch&&) noexcept;
+  RunWatch& operator=(RunWatch&&) noexcept;
+  ~RunWatch();
 
-  /// Tells nothing of the pairs that the other told of.
-  void knows_what(const OverlapWatch& other);
-
-  /// Pairs that overlap where the run starts, with depth and energy, as a sentence; empty: none does.
-  std::string at_start() const;
-  /// Pairs with points deeper than what pushes them out, of which nothing was told before, likewise.
-  std::string look(const State& state);
-  /// The first step after `step` that is worth a look: every tenth of a second; the largest number: none is.
+  void knows_what(const RunWatch& other);    ///< tells nothing that the other told
+  std::vector<Diagnostic> at_start() const;  ///< of the state where the run starts
+  /// New ones. `driven`: pulls, pins or states that were set may have given it energy: not judged then.
+  std::vector<Diagnostic> look(const Model& model, const State& state, bool driven);
+  /// The first step after `step` to look at, ten a second; the largest number: none.
   std::uint64_t next_step(std::uint64_t step) const;
 
  private:
@@ -168,8 +172,7 @@ class ASPIC_API OverlapWatch {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Time spent on pictures [s], in all. A device works on while the program does: its time shows where it is
-/// waited for.
+/// Time spent on frames [s], in all. A device's time shows where it is waited for.
 struct FrameTimes {
   std::uint64_t frames = 0;                                     ///< how many
   double simulate = 0.0, draw = 0.0, read = 0.0, encode = 0.0;  ///< in each stage [s]
@@ -223,8 +226,7 @@ class ASPIC_API Recorder {
 /// made it: that of the solver where this is a gpu one.
 class ASPIC_API StillPainter {
  public:
-  /// Draws the backend's model where a Recorder would; the backend must outlive it, where it is. Errors: as
-  /// Recorder::create().
+  /// Draws the backend's model, which must outlive it, where a Recorder would. Errors: its create()'s.
   static Result<std::unique_ptr<StillPainter>> create(const Scene& scene, const Backend& backend);
   ~StillPainter();
   StillPainter(const StillPainter&) = delete;

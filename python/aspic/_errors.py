@@ -19,6 +19,7 @@ __all__ = [
     "FileError",
     "InterruptedRun",
     "OverlapWarning",
+    "RunWarning",
     "SceneError",
     "StepWarning",
     "UsageError",
@@ -100,7 +101,11 @@ class ConvergenceWarning(UserWarning):
     """Steps of implicit Euler ended before the solve had converged: the first ones of a simulation."""
 
 
-class OverlapWarning(UserWarning):
+class RunWarning(UserWarning):
+    """Something of a scene or a run does not hold: bodies within terrain, flat cells, energy from nowhere, and others."""
+
+
+class OverlapWarning(RunWarning):
     """Bodies are within each other: at the start of a simulation, or so deep that nothing pushes them apart."""
 
 

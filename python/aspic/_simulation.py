@@ -14,6 +14,7 @@ from ._errors import (
     DivergedError,
     InterruptedRun,
     OverlapWarning,
+    RunWarning,
     SceneError,
     StepWarning,
     UsageError,
@@ -87,7 +88,7 @@ class Simulation(Replayable):
     ):
         """Makes the solver at the scene's start; later changes of ``scene`` do not matter to it.
 
-        Bodies that overlap there are named by an OverlapWarning; later, one names those that have come so deep into
+        What does not hold there is named by a RunWarning, bodies that overlap by an OverlapWarning; later, one names those that have come so deep into
         each other that nothing pushes them apart, ten times a simulated second at most and each pair once.
 
         ``scene``: one, or what ``aspic.load()`` takes; ``backend``: ``"auto"`` (a hardware GPU, else ``cpu``),
@@ -425,7 +426,7 @@ class Simulation(Replayable):
 
     def _warn(self) -> None:
         for kind, text in self._core.warnings():
-            warnings.warn(text, _WARNINGS[kind], stacklevel=3)
+            warnings.warn(text, _WARNINGS.get(kind, RunWarning), stacklevel=3)
 
     def _ipython_key_completions_(self) -> list[str]:
         return [*self.bodies, *(ball.name for ball in self.balls)]
@@ -443,7 +444,12 @@ class Simulation(Replayable):
         return whole(round(positive(duration, "duration [s]", zero=True) / self.timestep), "a number of steps")
 
 
-_WARNINGS = {"overlap": OverlapWarning, "solve": ConvergenceWarning, "step": StepWarning}
+_WARNINGS = {
+    "overlap": OverlapWarning,
+    "deep-overlap": OverlapWarning,
+    "solve": ConvergenceWarning,
+    "step": StepWarning,
+}
 
 
 def _raise(made: Made) -> None:

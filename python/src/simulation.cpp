@@ -52,9 +52,8 @@ void Simulation::start(const BackendChoice& choice, bool& stopped) {
   model_ = take(make_model(scene_.model));
   backend_ = take(make_backend(choice, model_));
   backend_.solver->set_stop_flag(&stop_);
-  overlaps_.emplace(scene_.model, *model_);
-  if (std::string found = overlaps_->at_start(); !found.empty())
-    warnings_.emplace_back("overlap", std::move(found));
+  watch_.emplace(scene_.model, *model_, true, backend_.solver->precision());
+  keep(watch_->at_start());
   std::string unstable = unstable_step_warning(*model_, [&](double) { return !(stopped = signalled()); });
   if (!unstable.empty()) warnings_.emplace_back("step", std::move(unstable));
 }
@@ -116,6 +115,7 @@ void Simulation::load(const State& state, const InputLog* log) {
     refuse_while_viewed();
     check(backend_.solver->load(state));
     step_ = state.step;
+    driven_ = true;
     if (log != nullptr) log_ = *log;
     check(backend_.solver->set_inputs(log_.at(step_)));
   });
@@ -149,9 +149,12 @@ void Simulation::check_stopped(bool stopped) const {
 }
 
 void Simulation::look_alone(std::uint64_t before) {
-  if (step_ < overlaps_->next_step(before)) return;
-  std::string found = overlaps_->look(state_alone());
-  if (!found.empty()) warnings_.emplace_back("overlap", std::move(found));
+  if (step_ < watch_->next_step(before)) return;
+  keep(watch_->look(*model_, state_alone(), driven_ || !log_.empty()));
+}
+
+void Simulation::keep(const std::vector<Diagnostic>& found) {
+  for (const Diagnostic& each : found) warnings_.emplace_back(each.id, each.sentence());
 }
 
 std::optional<SolveStatistics> Simulation::solves() {
@@ -312,9 +315,10 @@ void Simulation::update(const std::vector<std::string>& overrides) {
     log_ = log_.with_timestep(scene_.model.simulation.timestep, changed.model.simulation.timestep);
     scene_ = std::move(changed);
     model_ = model;
-    OverlapWatch watch(scene_.model, *model_, false);
-    watch.knows_what(*overlaps_);
-    overlaps_ = std::move(watch);
+    RunWatch watch(scene_.model, *model_, false);
+    watch.knows_what(*watch_);
+    watch_ = std::move(watch);
+    driven_ = true;
   });
 }
 

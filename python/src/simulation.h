@@ -104,7 +104,7 @@ class Simulation {
   /// The first step whose states differ, of so many; both advance until there.
   std::optional<std::uint64_t> compare(Simulation& other, std::uint64_t steps);
 
-  /// A kind (overlap, solve, step) and a sentence.
+  /// A kind (solve, step, or Diagnostic::id) and a sentence.
   using Warning = std::pair<std::string, std::string>;
   /// What there was to warn of since the last call.
   std::vector<Warning> warnings();
@@ -140,8 +140,9 @@ class Simulation {
   Advance advance_alone(std::uint64_t steps);
   void look_at_solves();
   void check_stopped(bool stopped) const;
-  /// Steps to the next look at bodies that may be within each other, and the look where it is due.
-  std::uint64_t steps_to_look() const { return overlaps_->next_step(step_) - step_; }
+  void keep(const std::vector<Diagnostic>& found);
+  /// Steps to the next look at what may be wrong, and the look where it is due.
+  std::uint64_t steps_to_look() const { return watch_->next_step(step_) - step_; }
   void look_alone(std::uint64_t before);
   /// Steps to `last`, with visit() at the steps that next_step() names, until a divergence, a signal or
   /// stop().
@@ -157,8 +158,9 @@ class Simulation {
   Backend backend_;
   InputLog log_;
   std::uint64_t step_ = 0;
-  std::optional<OverlapWatch> overlaps_;  // of model_
-  std::vector<Warning> warnings_;         // not told yet
+  std::optional<RunWatch> watch_;  // of model_
+  bool driven_ = false;            // states were set, or constants changed
+  std::vector<Warning> warnings_;  // not told yet
   std::atomic<bool> stop_ = false;
   bool solves_told_ = false;
   std::atomic<int> views_ = 0;

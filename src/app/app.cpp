@@ -314,7 +314,7 @@ Status App::frame(const WindowSize& size, double dt) {
   ASPIC_CHECK(comparison.follow(dt, budget));
   comparison_view.update();
   run.watch_divergence();
-  run.watch_overlaps();
+  run.watch_run();
   const bool moves = simulation.running() || simulation.playback().seeking() ||
                      comparison.clock().others_run() || !comparison.settled();
   still_for_ = camera_moves_ || moves ? 0.0 : still_for_ + dt;

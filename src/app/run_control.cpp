@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analysis/stability.h"
+#include "playback/recorded_inputs.h"
 
 namespace aspic::app {
 namespace {
@@ -113,28 +114,33 @@ void RunControl::watch_divergence() {
       Until::divergence_is_over);
 }
 
-void RunControl::watch_overlaps() {
-  constexpr double seconds = 15.0;  // that it is shown
+void RunControl::watch_run() {
+  const auto tell = [&](const std::vector<Diagnostic>& found) {
+    std::string text;
+    for (const Diagnostic& each : found) text += (text.empty() ? "" : " ") + sentence(each.sentence());
+    if (!text.empty()) messages_.info(text, 15.0);
+  };
   // While a change is on its way the scene is ahead of the model.
   if (scene_.pending() || simulation_.rebuild().changing() || simulation_.divergence()) return;
   const std::uint64_t number = simulation_.present().model_number(), step = simulation_.snapshot().step;
-  if (!overlaps_ || overlaps_model_ != number) {
-    const bool first = !overlaps_;
-    OverlapWatch watch(scene_.scene().model, simulation_.model(), step == 0);
+  if (!watch_ || watched_model_ != number) {
+    const bool first = !watch_;
+    RunWatch watch(scene_.scene().model, simulation_.model(), step == 0);
     // A constant that changes on the way is no news of what overlaps.
-    if (!first && step > 0) watch.knows_what(*overlaps_);
-    overlaps_ = std::move(watch);
-    overlaps_model_ = number;
-    next_look_ = overlaps_->next_step(step);
-    if (const std::string found = overlaps_->at_start(); !found.empty())
-      messages_.info(sentence(found), seconds);
+    if (!first && step > 0) watch.knows_what(*watch_);
+    watch_ = std::move(watch);
+    watched_model_ = number;
+    next_look_ = watch_->next_step(step);
+    tell(watch_->at_start());
   }
-  const std::uint64_t after = overlaps_->next_step(step);
+  const std::uint64_t after = watch_->next_step(step);
   const bool due = step >= next_look_;
   next_look_ = due ? after : std::min(next_look_, after);  // it may go back in time
   if (!due) return;
-  if (const std::string found = overlaps_->look(simulation_.snapshot()); !found.empty())
-    messages_.info(sentence(found), seconds);
+  // Hands and changed constants give and take energy, too.
+  const auto inputs =
+      recorded_inputs(simulation_.playback().history(), simulation_.playback().history().end_moment());
+  tell(watch_->look(simulation_.model(), simulation_.snapshot(), !inputs || !inputs->empty()));
 }
 
 }  // namespace aspic::app

@@ -37,8 +37,8 @@ class RunControl {
 
   /// Once for each picture: reports a new divergence.
   void watch_divergence();
-  /// Likewise: says which bodies overlap when a run starts, and once of each pair that it is too deep.
-  void watch_overlaps();
+  /// Likewise: says what does not hold where a run starts, and once what comes about on the way.
+  void watch_run();
   /// A smaller time step [s] than that which diverged, once a divergence was reported: step_to_try().
   std::optional<double> offered_step() const;
 
@@ -47,8 +47,8 @@ class RunControl {
   SceneControl& scene_;
   Messages& messages_;
   std::optional<StabilityLimit> stable_;
-  std::optional<OverlapWatch> overlaps_;  // of the model with that number
-  std::uint64_t overlaps_model_ = 0, next_look_ = 0;
+  std::optional<RunWatch> watch_;  // of the model with that number
+  std::uint64_t watched_model_ = 0, next_look_ = 0;
 };
 
 }  // namespace aspic::app

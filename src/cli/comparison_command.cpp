@@ -38,7 +38,7 @@ struct HeadlessVariant {
   std::uint64_t last_step = 0;
   std::string name;  ///< "run 2 (integrator implicit Euler)"
   Backend backend;
-  std::optional<OverlapWatch> overlaps;
+  std::optional<RunWatch> watch;
   std::optional<HeadlessRun> headless;
   std::optional<Outcome> outcome;
 };
@@ -124,10 +124,8 @@ Status prepare(HeadlessVariants& variants, const std::vector<Difference>& differ
       m.name += fmt::format("{}{} {}", &line == &label.front() ? " (" : ", ", line.label, line.value);
     m.name += ")";
     warn_if_unstable(*m.model, interrupt, m.name + ": ");
-    m.overlaps.emplace(m.run.scene.model, *m.model);
-    if (const std::string found = m.overlaps->at_start(); !found.empty())
-      print_warning(m.name + ": " + found);
-    m.headless->set_watch(*m.overlaps, m.name + ": ");
+    m.watch.emplace(m.run.scene.model, *m.model, true, m.backend.solver->precision());
+    m.headless->set_watch(*m.watch, m.name + ": ");
   }
   return {};
 }

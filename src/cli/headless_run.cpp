@@ -58,8 +58,15 @@ Status HeadlessRun::sample() {
   return {};
 }
 
-void HeadlessRun::look(const State& state) const {
-  if (const std::string found = watch_->look(state); !found.empty()) print_warning(watched_ + found);
+void HeadlessRun::look(const State& state) {
+  warn(watch_->look(solver_.model(), state, !inputs_.empty()));
+}
+
+void HeadlessRun::warn(std::vector<Diagnostic> found) {
+  for (Diagnostic& each : found) {
+    print_warning(watched_ + each.sentence());
+    found_.push_back(std::move(each));
+  }
 }
 
 Status HeadlessRun::begin() {
@@ -106,6 +113,7 @@ Result<Outcome> HeadlessRun::outcome(std::uint64_t last_step) {
                 *bad, outcome.state.step);
   }
   if (watch_) look(outcome.state);
+  outcome.diagnostics = found_;
   outcome.solves = solver_.solve_statistics();
   return outcome;
 }

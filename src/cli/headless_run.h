@@ -24,6 +24,7 @@ struct Outcome {
   std::optional<SolveStatistics> solves;  ///< implicit Euler only
   std::optional<double> actuator_work;    ///< over the rows of the series, where there is one [J]
   Status pictured;                        ///< whether the pictures were completed
+  std::vector<Diagnostic> diagnostics;    ///< all that was warned of by a watch
   bool interrupted = false;
   double wall_seconds = 0.0;
   double steps_per_second() const {
@@ -84,11 +85,12 @@ class HeadlessRun {
         step_(first_step),
         inputs_(std::move(inputs)) {}
 
-  /// Bodies that come to be within each other are warned of, where `of` begins the sentence. The watch must
-  /// outlive it.
-  void set_watch(OverlapWatch& watch, std::string of = "") {
+  /// What the watch finds is warned of, where `of` begins the sentence, and kept for the outcome. The watch
+  /// must outlive it.
+  void set_watch(RunWatch& watch, std::string of = "") {
     watch_ = &watch;
     watched_ = std::move(of);
+    warn(watch.at_start());
   }
 
   /// Hands the first state to the files.
@@ -114,7 +116,8 @@ class HeadlessRun {
 
  private:
   Status sample();
-  void look(const State& state) const;
+  void look(const State& state);
+  void warn(std::vector<Diagnostic> found);
 
   Solver& solver_;
   RunFiles& files_;
@@ -126,9 +129,10 @@ class HeadlessRun {
   double seconds_ = 0.0;
   BatchSize batch_;
   Losses losses_;
-  OverlapWatch* watch_ = nullptr;
+  RunWatch* watch_ = nullptr;
   std::string watched_;
   State state_;  // the latest that was looked at
+  std::vector<Diagnostic> found_;
 };
 
 }  // namespace aspic::cli

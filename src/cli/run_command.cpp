@@ -196,8 +196,7 @@ Status execute(const RunOptions& options) {
   if (start.state) ASPIC_CHECK(backend.solver->load(*start.state));
   ASPIC_CHECK(check_log(model, inputs, backend.solver->precision()));
   warn_if_unstable(model, interrupt);
-  OverlapWatch overlaps(start.scene.model, model, first_step == 0);
-  if (const std::string found = overlaps.at_start(); !found.empty()) print_warning(found);
+  RunWatch watch(start.scene.model, model, first_step == 0, backend.solver->precision());
 
   start.state.reset();
   std::unique_ptr<Recorder> recorder;
@@ -206,7 +205,7 @@ Status execute(const RunOptions& options) {
                                          first_step, steps));
   }
   HeadlessRun headless(*backend.solver, files, first_step, options.pictures.any(), inputs);
-  headless.set_watch(overlaps);
+  headless.set_watch(watch);
   ASPIC_TRY(auto outcome, simulate(headless, recorder.get(), steps, interrupt));
   (void)files.finish({.model = model,
                       .state = outcome.state,

@@ -70,11 +70,19 @@ Json to_json(const RunReport& run) {
       {"diverged", diverged},
       {"interrupted", outcome.interrupted},
       {"implicit_solves", solves},
+      {"diagnostics", to_json(outcome.diagnostics)},
       {"energies", energies},
       {"momentum", Json{m.momentum.x, m.momentum.y, m.momentum.z}},
       {"max_speed", m.max_speed},
       {"min_height", m.min_height},
   };
+}
+
+Json to_json(const std::vector<Diagnostic>& diagnostics) {
+  Json all = Json::array();
+  for (const Diagnostic& d : diagnostics)
+    all.push_back({{"id", d.id}, {"where", d.where}, {"text", d.text}, {"advice", d.advice}});
+  return all;
 }
 
 std::string to_text(const RunReport& run) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "aspic/run.h"
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "cli/headless_run.h"
@@ -28,6 +29,8 @@ Json to_json(const RunReport& run);
 /// The same for people, a line each.
 std::string to_text(const RunReport& run);
 
+/// What a watch found, with id, where, text and advice of each.
+Json to_json(const std::vector<Diagnostic>& diagnostics);
 /// Pictures, and the time each took on `device`.
 Json to_json(const FrameTimes& times, const std::string& device);
 /// One line on stderr: pictures are by the way, the summary on stdout is the run's.

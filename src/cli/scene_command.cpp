@@ -13,12 +13,15 @@
 
 #include "analysis/body_overlap.h"
 #include "analysis/stability.h"
+#include "aspic/run.h"
 #include "aspic/scene.h"
 #include "base/files.h"
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/run_summary.h"
 #include "cli/scene_contact.h"
+#include "cli/scene_materials.h"
 #include "io/program.h"
 #include "model/counts.h"
 #include "model/springs.h"
@@ -275,6 +278,7 @@ Status execute(const SceneCheckOptions& options) {
     return Error{ErrorCode::interrupted,
                  "interrupted before the stable steps were known; nothing was printed."};
 
+  const std::vector<Diagnostic> found = RunWatch(scene.model, model).at_start();
   const std::optional<DeviceCapacity> capacity = device_capacity(own);
   // Measured on solvers, which a crowd makes large.
   const bool crowd = has_crowd(model, initial_state(model, Precision::double_));
@@ -308,6 +312,8 @@ Status execute(const SceneCheckOptions& options) {
                                     {"timestep", timestep},
                                     {"stable_steps", steps},
                                     {"contact", contact_json(scene, model, touching, touching_steps)},
+                                    {"materials", materials_json(scene.model)},
+                                    {"diagnostics", to_json(found)},
                                     {"largest_cubes", capacity ? largest : Json()}})));
   } else {
     std::string text = fmt::format("scene        {}\n", scene.name);
@@ -342,6 +348,7 @@ Status execute(const SceneCheckOptions& options) {
       text += "\n";
     }
     text += fmt::format("time step    {:<24} {:>8} s\n", name_of(own), timestep);
+    text += materials_text(scene.model);
     text += contact_text(scene, model, touching);
     ASPIC_CHECK(print_text(text));
   }
@@ -353,8 +360,8 @@ Status execute(const SceneCheckOptions& options) {
     }
   }
   for (const std::string& note : idle_keys(scene.model)) print_message(note);
-  for (const std::string& warning : contact_warnings(scene, model, touching, touching_steps))
-    print_warning(warning);
+  for (const Diagnostic& each : found) print_warning(each.sentence());
+  for (const std::string& warning : contact_warnings(model, touching, touching_steps)) print_warning(warning);
   return {};
 }
 

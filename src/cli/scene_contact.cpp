@@ -118,11 +118,9 @@ Json contact_json(const Scene& scene, const Model& model, const TouchFacts& fact
   return {{"kinds", kinds}, {"pairs", pairs}, {"stable_steps", steps}, {"overlaps", overlaps}};
 }
 
-std::vector<std::string> contact_warnings(const Scene& scene, const Model& model, const TouchFacts& facts,
+std::vector<std::string> contact_warnings(const Model& model, const TouchFacts& facts,
                                           const TouchingLimits& limits) {
   std::vector<std::string> warnings;
-  if (std::string found = OverlapWatch(scene.model, model).at_start(); !found.empty())
-    warnings.push_back(std::move(found));
   const SimulationSettings& simulation = model.simulation;
   if (const double zeta = least_zeta(model, facts); zeta > model.contact.body_damping)
     warnings.push_back(

@@ -21,7 +21,7 @@ std::string contact_text(const Scene& scene, const Model& model, const TouchFact
 Json contact_json(const Scene& scene, const Model& model, const TouchFacts& facts,
                   const TouchingLimits& limits);
 /// What to warn of, a sentence each.
-std::vector<std::string> contact_warnings(const Scene& scene, const Model& model, const TouchFacts& facts,
+std::vector<std::string> contact_warnings(const Model& model, const TouchFacts& facts,
                                           const TouchingLimits& limits);
 
 }  // namespace aspic::cli

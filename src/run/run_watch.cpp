@@ -1,0 +1,225 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "analysis/body_overlap.h"
+#include "analysis/course.h"
+#include "analysis/flat_cells.h"
+#include "aspic/analysis.h"
+#include "aspic/run.h"
+#include "run/named_bodies.h"
+#include "run/start_diagnostics.h"
+
+namespace aspic {
+namespace {
+
+/// Of simulated time, between two looks [s].
+constexpr double interval = 0.1;
+/// Of what is in motion and in springs, what may come from nowhere before it is told: explicit Euler and
+/// points that are found deep at once gain some.
+constexpr double energy_share = 0.15;
+
+/// Whether all that acts on bodies is booked: neither actuators nor moving terrain do work, and nothing is
+/// eased apart.
+bool keeps_its_energy(const Model& model, bool eased) {
+  return bodies_touch(model) && !eased && model.actuation.actuators.empty() &&
+         std::ranges::none_of(model.terrain, [](const Terrain& t) { return t.motion.has_value(); });
+}
+
+/// What balls have that were launched in these steps, where they were [J].
+double launched(const Model& model, std::uint64_t after, std::uint64_t until) {
+  double sum = 0.0;
+  for (const Ball& ball : model.balls)
+    if (ball.launched(until) && !ball.launched(after))
+      sum += 0.5 * ball.mass * dot(ball.initial_velocity, ball.initial_velocity) +
+             0.5 * ball.inertia() * dot(ball.initial_angular_velocity, ball.initial_angular_velocity) -
+             ball.mass * dot(model.simulation.gravity, ball.initial_position);
+  return sum;
+}
+
+/// Kinetic and gravitational energy of a state [J], without its springs.
+double motion_energy(const Model& model, const State& state) {
+  double sum = 0.0;
+  const Vec3& g = model.simulation.gravity;
+  for (std::size_t i = 0; i < state.position.size(); ++i)
+    sum += model.mass[i] * (0.5 * dot(state.velocity[i], state.velocity[i]) - dot(g, state.position[i]));
+  for (std::size_t b = 0; b < state.ball_position.size(); ++b)
+    if (model.balls[b].launched(state.step))
+      sum += model.balls[b].mass *
+             (0.5 * dot(state.ball_velocity[b], state.ball_velocity[b]) - dot(g, state.ball_position[b]));
+  return sum;
+}
+
+}  // namespace
+
+std::string Diagnostic::sentence() const {
+  return advice.empty() ? text + "." : fmt::format("{}. {}.", text, advice);
+}
+
+struct RunWatch::Parts {
+  std::vector<std::string> names;  // of bodies
+  std::vector<BodyOverlap> at_start;
+  std::vector<Diagnostic> start;       // the rest of what is told there
+  std::optional<DeepPoints> deep;      // made with the first look, since they take much of the memory of
+  std::optional<FlatCellSearch> flat;  // a run, and scene check makes none
+  double timestep;
+  bool watched;  // there is something to look for
+  bool energetic;
+  struct Energy {
+    std::uint64_t step;
+    double total;  // [J]
+  };
+  std::optional<Energy> first;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> told_pairs;
+  std::set<std::uint32_t> told_flat;
+  bool told_energy = false;
+  bool starts = false;  // in the model's initial state
+
+  std::string pair(const BodyOverlap& of) const {
+    return fmt::format("{} and {}", names.at(of.a), names.at(of.b));
+  }
+  std::string when(const State& state) const {
+    return fmt::format("at step {} (t = {:.4g} s)", state.step, static_cast<double>(state.step) * timestep);
+  }
+  Diagnostic overlap() const;
+  void look_for_deep(const State& state, std::vector<Diagnostic>& found);
+  void look_for_flat(const State& state, std::vector<Diagnostic>& found);
+  void look_for_energy(const Model& model, const State& state, std::vector<Diagnostic>& found);
+};
+
+RunWatch::RunWatch(const ModelSettings& settings, const Model& model, bool starts, Precision precision)
+    : parts_(new Parts{
+          followable_bodies(settings),
+          starts ? overlaps_of(model, initial_state(model, Precision::double_)) : std::vector<BodyOverlap>(),
+          starts ? start_diagnostics(settings, model, precision) : std::vector<Diagnostic>(),
+          {},
+          {},
+          model.simulation.timestep,
+          !model.bodies.empty(),
+          false,
+          {},
+          {},
+          {}}) {
+  // What is deep from the start is named there.
+  for (const BodyOverlap& each : parts_->at_start)
+    if (each.locked()) parts_->told_pairs.emplace(each.a, each.b);
+  parts_->energetic = keeps_its_energy(model, !parts_->at_start.empty());
+  parts_->starts = starts;
+}
+
+RunWatch::RunWatch(RunWatch&&) noexcept = default;
+RunWatch& RunWatch::operator=(RunWatch&&) noexcept = default;
+RunWatch::~RunWatch() = default;
+
+void RunWatch::knows_what(const RunWatch& other) {
+  if (parts_->names != other.parts_->names) return;
+  parts_->told_pairs = other.parts_->told_pairs;
+  parts_->told_flat = other.parts_->told_flat;
+  parts_->told_energy = other.parts_->told_energy;
+}
+
+Diagnostic RunWatch::Parts::overlap() const {
+  std::vector<std::string> pairs;
+  for (const BodyOverlap& each : at_start)
+    pairs.push_back(
+        fmt::format("{} by {:.3g} m{}{}", pair(each), each.deepest,
+                    each.locked() ? fmt::format(", deeper than the {:.3g} m that are pushed", each.most) : "",
+                    each.energy > 0.0 ? fmt::format(", {:.3g} J", each.energy) : ""));
+  const bool locked = std::ranges::any_of(at_start, &BodyOverlap::locked);
+  const std::string count =
+      at_start.size() == 1 ? std::string("two bodies") : fmt::format("{} pairs of bodies", at_start.size());
+  return {"overlap", names.at(at_start.front().a),
+          fmt::format("{} overlap at the start: {}", count, listed(pairs)),
+          fmt::format("{}; move them apart in the scene",
+                      locked ? "What is too deep stays so, the rest is eased apart"
+                             : "They are eased apart slowly, without the energy named")};
+}
+
+std::vector<Diagnostic> RunWatch::at_start() const {
+  std::vector<Diagnostic> found;
+  if (!parts_->at_start.empty()) found.push_back(parts_->overlap());
+  found.insert(found.end(), parts_->start.begin(), parts_->start.end());
+  return found;
+}
+
+void RunWatch::Parts::look_for_deep(const State& state, std::vector<Diagnostic>& found) {
+  const auto known = [&](std::uint32_t a, std::uint32_t b) {
+    return told_pairs.contains({std::min(a, b), std::max(a, b)});
+  };
+  std::vector<std::string> pairs;
+  std::string where;
+  for (const BodyOverlap& each : deep->find(state, known)) {
+    pairs.push_back(
+        fmt::format("{} by {:.3g} m, of {:.3g} m that are pushed", pair(each), each.deepest, each.most));
+    if (where.empty()) where = names.at(each.a);
+    told_pairs.emplace(each.a, each.b);
+  }
+  if (pairs.empty()) return;
+  found.push_back(
+      {"deep-overlap", where,
+       fmt::format("bodies are so deep within each other {} that nothing pushes their inside apart: {}",
+                   when(state), listed(pairs)),
+       "They met too fast, or too soft: see what aspic scene check says of contact"});
+}
+
+void RunWatch::Parts::look_for_flat(const State& state, std::vector<Diagnostic>& found) {
+  std::vector<std::string> bodies;
+  std::string where;
+  for (const FlatCells& each : flat->find(state)) {
+    if (!told_flat.insert(each.body).second) continue;
+    if (where.empty()) where = names.at(each.body);
+    bodies.push_back(fmt::format("{} of {}", each.cells, names.at(each.body)));
+  }
+  if (bodies.empty()) return;
+  found.push_back({"flat-cells", where,
+                   fmt::format("cells are flat or inside out {}: {}", when(state), listed(bodies)),
+                   "Springs may hold them so for ever; slower impacts or stiffer springs keep the shape"});
+}
+
+void RunWatch::Parts::look_for_energy(const Model& model, const State& state,
+                                      std::vector<Diagnostic>& found) {
+  if (!first || state.step < first->step) {
+    first = Energy{state.step, measure(model, state).total()};
+    return;
+  }
+  const double start = first->total + launched(model, first->step, state.step);
+  // Energy that is only in springs shows as soon as it moves something.
+  if (!(motion_energy(model, state) > start)) return;
+  const Measures now = measure(model, state);
+  const double rise = now.total() - start;
+  if (!(rise > energy_share * (now.kinetic + now.elastic))) return;
+  told_energy = true;
+  found.push_back(
+      {"energy", "",
+       fmt::format(
+           "the total energy is {:.3g} J {}, {:.3g} J more than at the start, and nothing did that work",
+           now.total(), when(state), rise),
+       "Bodies met too fast or the time step is too large: see what aspic scene check says"});
+}
+
+std::vector<Diagnostic> RunWatch::look(const Model& model, const State& state, bool driven) {
+  std::vector<Diagnostic> found;
+  if (!parts_->deep) {
+    parts_->deep.emplace(model);
+    parts_->flat.emplace(model);
+    if (parts_->starts && parts_->energetic)
+      parts_->first = {0, measure(model, initial_state(model, Precision::double_)).total()};
+  }
+  parts_->look_for_deep(state, found);
+  parts_->look_for_flat(state, found);
+  parts_->energetic = parts_->energetic && !driven;
+  if (parts_->energetic && !parts_->told_energy) parts_->look_for_energy(model, state, found);
+  return found;
+}
+
+std::uint64_t RunWatch::next_step(std::uint64_t step) const {
+  if (!parts_->watched) return std::numeric_limits<std::uint64_t>::max();
+  const std::uint64_t every = sample_stride(parts_->timestep, interval);
+  return step + (every - step % every);
+}
+
+}  // namespace aspic
