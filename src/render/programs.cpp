@@ -5,6 +5,7 @@
 #include "model/terrain.h"
 #include "render/colour_map.h"
 #include "render/light_maps.h"
+#include "render/section.h"
 
 namespace aspic {
 

@@ -73,9 +73,11 @@ Result<Figure> map_figure(const Study& study, const Model& model, const ProbeSta
   const double forces = all_integrators.size() * usual_rows * usual_columns *
                         static_cast<double>(probe_steps * spring_count(model)),
                share = std::sqrt(std::min(1.0, most_forces / std::max(forces, 1.0)));
-  const std::size_t rows = study.thorough ? 25 : std::max<std::size_t>(5, std::lround(usual_rows * share)),
-                    columns =
-                        study.thorough ? 41 : std::max<std::size_t>(9, std::lround(usual_columns * share));
+  const auto share_of = [&](double usual, std::size_t least) {
+    return std::max(least, static_cast<std::size_t>(std::lround(usual * share)));
+  };
+  const std::size_t rows = study.thorough ? 25 : share_of(usual_rows, 5),
+                    columns = study.thorough ? 41 : share_of(usual_columns, 9);
   ASPIC_TRY(const auto limits, theory(study, model, constant, 4 * (rows - 1) + 1));
   const bool bounded = limits.largest > 0.0;
   const double h = model.simulation.timestep;

@@ -186,11 +186,11 @@ void RunWatch::Parts::look_for_energy(const Model& model, const State& state,
     first = Energy{state.step, measure(model, state).total()};
     return;
   }
-  const double start = first->total + launched(model, first->step, state.step);
+  const double before = first->total + launched(model, first->step, state.step);
   // Energy that is only in springs shows as soon as it moves something.
-  if (!(motion_energy(model, state) > start)) return;
+  if (!(motion_energy(model, state) > before)) return;
   const Measures now = measure(model, state);
-  const double rise = now.total() - start;
+  const double rise = now.total() - before;
   if (!(rise > energy_share * (now.kinetic + now.elastic))) return;
   told_energy = true;
   found.push_back(

@@ -562,8 +562,8 @@ std::vector<PortabilityOffence> lint_portability(std::string_view text, Branches
   }
   const auto key = [](const PortabilityOffence& o) { return std::tie(o.line, o.rule, o.text); };
   std::ranges::sort(offences, {}, key);
-  const auto repeated = std::ranges::unique(offences);
-  offences.erase(repeated.begin(), repeated.end());
+  // std::ranges::unique() returns a subrange that clang 14 rejects.
+  offences.erase(std::unique(offences.begin(), offences.end()), offences.end());
   return offences;
 }
 
