@@ -21,7 +21,7 @@ cp "$aspic_root/tests/data/hashes.json" "$tree/tests/data"
 cp "$aspic_root/bench/results/h200/hashes.csv" "$tree/bench/results/h200"
 cp "$aspic_build_dir/gl_tests.txt" "$tree"
 echo "$aspic_root" >"$tree/root.txt"
-{ cut -d ' ' -f 1 "$tree/gl_tests.txt"; printf '%s\n' aspic tests/run/aspic_test_drawer; } | while read -r program; do
+{ cut -d ' ' -f 1 "$tree/gl_tests.txt"; echo aspic; } | while read -r program; do
   mkdir -p "$(dirname "$tree/build/release/$program")"
   strip -o "$tree/build/release/$program" "$aspic_build_dir/$program"
 done
