@@ -152,7 +152,7 @@ class ASPIC_API Solver {
   const std::atomic<bool>* stop_flag() const { return flag_; }
   /// Whether advance() should end.
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
-  /// What an advance() of a solver that heeds the flag returns.
+  /// Result of advance() for a solver that obeys the stop flag.
   static Advance ended(std::uint64_t made, std::uint64_t wanted,
                        const std::optional<Divergence>& divergence) {
     return {made, divergence, made < wanted && !divergence};

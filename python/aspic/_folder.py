@@ -56,7 +56,7 @@ class Folder:
         return {name[:-5] for name in names if name.endswith(".json") and not name.startswith(".")}
 
     def read(self, key: str) -> Row | None:
-        """A run; None where there is none or its file is damaged or no regular file: then it is made again."""
+        """Return a finished run, or None if its file is missing, damaged or not a regular file."""
         path = self._run(key, "json")
         if not os.path.isfile(path):  # opening a pipe would wait for its writer
             return None

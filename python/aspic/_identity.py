@@ -83,7 +83,7 @@ def _installed(function: types.FunctionType) -> bool:
 
 
 def _code(code: types.CodeType) -> Any:
-    """Its text, which no version of Python changes; where there is none, its bytes."""
+    """Return the source text, which is the same in all versions of Python, or the byte code if there is no source."""
     try:
         return inspect.getsource(code)
     except (OSError, TypeError):

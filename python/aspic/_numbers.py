@@ -74,7 +74,7 @@ def floats(numbers: Any, shape: tuple[int, ...], what: str, single: bool = False
 
 
 def name_of(path: Any) -> str:
-    """A path as the library takes it. Raises UsageError for what is none, and for one that would be cut at a NUL."""
+    """Return a path for the library. Raise UsageError if the value is not a path or contains a NUL character."""
     try:
         name = os.fsdecode(path)
     except TypeError:

@@ -38,7 +38,7 @@ __all__ = ["Advance", "Simulation", "SolveStatistics", "resume"]
 Path = Union[str, "os.PathLike[str]"]
 
 
-# What the extension module tells of steps: how many were made, what diverged, whether stop() ended them.
+# Result of steps from the extension module: the number made, the divergence, and whether stop() ended them.
 Made = tuple[int, Union[tuple[int, int, bool, str], None], bool]
 
 

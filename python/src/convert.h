@@ -39,7 +39,7 @@ inline void check(const Status& status) {
   if (!status) throw LibraryError(status.error());
 }
 
-/// What a call raises that stop() of another thread ended.
+/// Raised by a call that stop() of another thread ended.
 inline LibraryError stopped_error() {
   return LibraryError({ErrorCode::interrupted, "stop() ended the call; the state is that of a whole step"});
 }

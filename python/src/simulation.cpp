@@ -128,7 +128,7 @@ Advance Simulation::advance_alone(std::uint64_t steps) {
   return made;
 }
 
-/// Of those that missed the tolerance, the first ones are told of, once.
+/// Warns once when solves miss the tolerance.
 void Simulation::look_at_solves() {
   if (solves_told_) return;
   const auto solves = backend_.solver->solve_statistics();

@@ -106,7 +106,7 @@ class Simulation {
 
   /// A kind (solve, step, or Diagnostic::id) and a sentence.
   using Warning = std::pair<std::string, std::string>;
-  /// What there was to warn of since the last call.
+  /// Warnings since the last call.
   std::vector<Warning> warnings();
 
   std::vector<std::byte> picture(const std::vector<std::string>& view, const PictureSize& size, bool text);

@@ -10,7 +10,7 @@ layout(std430, binding = 0) buffer Tally {
   uint unused;
 };
 
-// Of each invocation.
+// Number of mantissas for each invocation.
 #define MANTISSAS 128u
 
 // Whether G·2⁻²³ is the float next to √x, x = X·2^−46: (2G − 1)² < 4X < (2G + 1)², that is −G < X − G² ≤ G.
