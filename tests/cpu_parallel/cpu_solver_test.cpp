@@ -95,7 +95,7 @@ void expect_hardware_states(bool long_ones) {
     ASSERT_TRUE(solver->advance(run.steps).ok());
     EXPECT_EQ(state_hash_text(*solver->state()), run.hash) << run.text();
   }
-  EXPECT_EQ(count, long_ones ? 1 : 81);
+  EXPECT_EQ(count, long_ones ? 1 : 102);
 }
 
 // An NVIDIA H200 ended these runs with the same states; it flushes denormal numbers.

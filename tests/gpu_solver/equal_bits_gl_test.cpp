@@ -129,7 +129,7 @@ TEST_F(EqualBits, EndsRunsOfNetsWithTheStatesOfAnH200) {
     ASSERT_TRUE((*solver)->advance(run.steps).ok());
     EXPECT_EQ(state_hash_text(*(*solver)->state()), run.hash) << run.text();
   }
-  EXPECT_EQ(count, 10);
+  EXPECT_EQ(count, 13);
 }
 
 // Browsers end all of these runs with the same states (tests/page/live_browser_test.cpp).
