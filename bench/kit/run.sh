@@ -146,7 +146,6 @@ bench exact gpu $sizes
 bench fast gpu:fast $sizes
 bench cpu cpu $few
 bench gather gpu:gather $few
-bench tiles gpu:lattice-tiles $few
 
 stage "other programs" 92
 if command -v nvcc >/dev/null; then

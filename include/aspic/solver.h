@@ -72,7 +72,6 @@ ASPIC_API std::string_view name_of(Arithmetic arithmetic);  ///< "exact", "fast"
 enum class ForcePath {
   automatic,  ///< lattice where the model has a complete cube, else gather
   lattice,    ///< gather on cubes and boxes without connectivity in memory, and as below on all else
-  tiles,      ///< lattice, with tiles of a cube in shared memory
   gather,     ///< one invocation per particle evaluates its springs, everything fused
   per_spring  ///< one invocation per spring writes its force, a second pass sums
 };

@@ -19,7 +19,7 @@ precise vec3 force[ASPIC_LATTICE_RUN];
 precise vec3 other_x, other_v;
 
 #define TAKE(p)                                                           \
-  own[p] = stage_state[AT(particle_at(body, own_block, first_place + (p)))]; \
+  own[p] = stage_state[particle_at(body, own_block, first_place + (p))]; \
   patterns[p] = pattern_of(body, record, uint(first_place + (p)));        \
   force[p] = own[p].velocity.w * gravity.xyz;
 #define MOVE_DOWN(p)    \
@@ -60,7 +60,7 @@ precise vec3 other_x, other_v;
 
 void main() {
   uint first = item_index() * uint(ASPIC_LATTICE_RUN);  // of the places of all records
-  if (item_index() >= item_end(RECORDS * BLOCK_PLACES / uint(ASPIC_LATTICE_RUN)) || halted()) return;
+  if (item_index() >= RECORDS * BLOCK_PLACES / uint(ASPIC_LATTICE_RUN) || halted()) return;
   use_lengths(step_index, stage_index);
   uint record = RECORD(first / BLOCK_PLACES);
   int first_place = int(first % BLOCK_PLACES);

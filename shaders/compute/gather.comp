@@ -13,14 +13,14 @@
 void main() {
   uint place = item_index();
 #ifdef ASPIC_LATTICES
-  if (place >= item_end(listed_count) || halted()) return;
+  if (place >= listed_count || halted()) return;
   uint i = listed_particle(place);
 #else
-  if (place >= item_end(particle_count) || halted()) return;
+  if (place >= particle_count || halted()) return;
   uint i = place;
 #endif
   use_lengths(step_index, stage_index);
-  Particle p = stage_state[AT(i)];
+  Particle p = stage_state[i];
   precise vec3 f = p.velocity.w * gravity.xyz;
   Walk w = walk_words(place);
   for (w.end = bounded(w.end, KERNEL_GATHER); w.at < w.end; ++w.at) {

@@ -11,14 +11,7 @@ layout(std430, binding = BINDING_TRIAL) restrict buffer Trial { vec4 trial[]; };
 layout(std430, binding = BINDING_SEARCH) restrict buffer Search { vec4 search[]; };
 layout(std430, binding = BINDING_OWN) restrict buffer Own { vec4 own_vectors[]; };
 
-// A window has its particles' vectors to itself. Data that neighbours need of them lies with the search direction.
-#ifdef ASPIC_WINDOWS
-uint own_at(uint which, uint i) { return which * (window.y - window.x) + AT_ITEM(i); }
-#define AT_SEARCH(i) (2u * AT(i))
-#else
 uint own_at(uint which, uint i) { return which * particle_count + i; }
-#define AT_SEARCH(i) (i)
-#endif
 
 vec3 own(uint which, uint i) { return own_vectors[own_at(which, i)].xyz; }
 vec4 own4(uint which, uint i) { return own_vectors[own_at(which, i)]; }
@@ -28,18 +21,8 @@ void set_own4(uint which, uint i, vec4 value) { own_vectors[own_at(which, i)] = 
 // The part of δ that the ground prescribes.
 void prescribe(uint i, vec4 value) {
   set_own4(OWN_PRESCRIBED, i, value);
-#ifdef ASPIC_WINDOWS
-  search[AT_SEARCH(i) + 1u] = value;
-#endif
 #ifdef ASPIC_TOUCH
   search[TOUCH_AT(TOUCH_PRESCRIBED, i)] = value;
-#endif
-}
-vec3 prescribed_of_any(uint i) {
-#ifdef ASPIC_WINDOWS
-  return search[AT_SEARCH(i) + 1u].xyz;
-#else
-  return own(OWN_PRESCRIBED, i);
 #endif
 }
 

@@ -7,19 +7,19 @@
 #include "compute/implicit_spring.glsl"
 #include "compute/reduction.glsl"
 
-vec3 direction(uint j) { return prescribing ? prescribed_of_any(j) : search[AT_SEARCH(j)].xyz; }
+vec3 direction(uint j) { return prescribing ? own(OWN_PRESCRIBED, j) : search[j].xyz; }
 
 // Returns 0, p·A·p, 0, 0.
 vec4 apply(uint i) {
   Particle particle = state(i);
   precise vec3 p = direction(i);
-  precise vec3 v = trial[AT(i)].xyz;
+  precise vec3 v = trial[i].xyz;
   precise vec3 product = particle.velocity.w * p;
   Walk w = walk(i);
   for (w.end = bounded(w.end, KERNEL_IMPLICIT_APPLY); w.at < w.end; ++w.at) {
     Link link;
     if (!link_at(w, link)) continue;
-    precise vec3 dv = v - trial[AT(link.other)].xyz;
+    precise vec3 dv = v - trial[link.other].xyz;
     precise vec3 e = (particle.position.xyz - state(link.other).position.xyz) + time_step * dv;
     SpringJacobian H;
     linearised(link.spring, e, dv, H);
@@ -48,7 +48,7 @@ void main() {
   uint i = item_index();
   precise vec4 element = vec4(0.0);
   use_lengths(ended_steps, LENGTHS_AT_END);
-  if (i < item_end(particle_count)) element = apply(i);
+  if (i < particle_count) element = apply(i);
   precise vec4 total;
   if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;
   if (prescribing) return;

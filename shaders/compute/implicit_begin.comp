@@ -42,11 +42,11 @@ void main() {
   if (solve.stale != 0u) return;
 #endif
   uint i = item_index();
-  if (i < item_end(particle_count)) {
+  if (i < particle_count) {
     use_lengths(ended_steps, LENGTHS_AT_START);
     Particle p = state(i);
     set_own(OWN_HELD, i, held_contact_force(i, p));
-    trial[AT(i)] = vec4(p.velocity.xyz, 0.0);
+    trial[i] = vec4(p.velocity.xyz, 0.0);
 #ifdef ASPIC_TOUCH
     if (touch_count > 0u) keep_start(i, p, force(i, p));
 #endif

@@ -7,17 +7,17 @@
 
 void main() {
   uint i = item_index();
-  if (i >= item_end(particle_count)) return;
+  if (i >= particle_count) return;
   uint phase = enter();
   // No reduction tells whether this kernel was carried out; the next round looks at the count.
   bool works = phase == PHASE_CG || phase == PHASE_EVALUATE || phase == PHASE_TOUCH;
   if (works && is_counted(i, particle_count)) atomicAdd(solve.moved, 1u);
   if (phase == PHASE_CG) {
     precise vec3 p = own(OWN_Z, i);
-    if (!prescribing) p = p + solve.beta * search[AT_SEARCH(i)].xyz;
-    search[AT_SEARCH(i)] = vec4(p, 0.0);
+    if (!prescribing) p = p + solve.beta * search[i].xyz;
+    search[i] = vec4(p, 0.0);
   } else if (phase == PHASE_EVALUATE) {
-    precise vec3 base = solve.halvings == 0u ? trial[AT(i)].xyz : own(OWN_BASE, i);
+    precise vec3 base = solve.halvings == 0u ? trial[i].xyz : own(OWN_BASE, i);
     precise vec3 delta = solve.updates == 0u ? vec3(0.0) : own(OWN_DELTA, i);
     precise vec3 next = base + solve.lambda * delta;
     if (solve.first == 2u) {
@@ -25,8 +25,8 @@ void main() {
       next = start.position.w == 0.0 ? base : start.velocity.xyz + time_step * gravity.xyz;
     }
     set_own(OWN_BASE, i, base);
-    trial[AT(i)] = vec4(next, 0.0);
+    trial[i] = vec4(next, 0.0);
   } else if (phase == PHASE_TOUCH) {
-    if (solve.use_trial == 0u) trial[AT(i)] = vec4(own(OWN_BASE, i), 0.0);
+    if (solve.use_trial == 0u) trial[i] = vec4(own(OWN_BASE, i), 0.0);
   }
 }

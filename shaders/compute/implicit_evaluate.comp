@@ -40,14 +40,14 @@ void keep_reaction(uint i, Reaction reaction, vec3 R) {
 // Returns largest |residual| component, its square sum, r·z, and the square sum after a fall.
 vec4 evaluate(uint i) {
   Particle p = state(i);
-  precise vec3 v = trial[AT(i)].xyz;
+  precise vec3 v = trial[i].xyz;
   precise vec3 f = p.velocity.w * gravity.xyz;
   DiagonalBlock block = block_of_mass(p.velocity.w);
   Walk w = walk(i);
   for (w.end = bounded(w.end, KERNEL_IMPLICIT_EVALUATE); w.at < w.end; ++w.at) {
     Link link;
     if (!link_at(w, link)) continue;
-    precise vec3 dv = v - trial[AT(link.other)].xyz;
+    precise vec3 dv = v - trial[link.other].xyz;
     precise vec3 e = (p.position.xyz - state(link.other).position.xyz) + time_step * dv;
     SpringJacobian H;
     f += linearised(link.spring, e, dv, H);
@@ -90,7 +90,7 @@ vec4 evaluate(uint i) {
   set_own(OWN_Z, i, z);
   set_own(OWN_INVERSE_A, i, inverted.diagonal);
   set_own(OWN_INVERSE_B, i, inverted.mixed);
-  search[AT_SEARCH(i)] = vec4(z, 0.0);
+  search[i] = vec4(z, 0.0);
   precise float xy = abs(R.y) > abs(R.x) ? abs(R.y) : abs(R.x);
   precise vec3 after_fall = R + fall;
   return vec4(abs(R.z) > xy ? abs(R.z) : xy, dot3(R, R), dot3(r, z), dot3(after_fall, after_fall));
@@ -108,7 +108,7 @@ void main() {
   if (!evaluates) return;
   precise vec4 element = vec4(0.0);
   use_lengths(ended_steps, LENGTHS_AT_END);
-  if (i < item_end(particle_count)) element = evaluate(i);
+  if (i < particle_count) element = evaluate(i);
   precise vec4 total;
   if (reduce(element, total) && gl_LocalInvocationIndex == 0u) judge(total);
 }

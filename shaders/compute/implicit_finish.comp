@@ -10,7 +10,7 @@
 
 void finish(uint i) {
   Particle start = state(i);
-  precise vec3 v = solve.use_trial != 0u ? trial[AT(i)].xyz : own(OWN_BASE, i);
+  precise vec3 v = solve.use_trial != 0u ? trial[i].xyz : own(OWN_BASE, i);
   if (own4(OWN_GROUND, i).w != FREE_ALL) v = v + own(OWN_PRESCRIBED, i);  // the ground gives way by no tolerance
   precise vec3 x = start.position.xyz + time_step * v;
   if (contact_model == CONTACT_COULOMB) {
@@ -25,16 +25,16 @@ void finish(uint i) {
   if (bad != NO_STEP) atomicMin(solve.bad_particle, bad);
   Particle end = Particle(vec4(x, start.position.w), vec4(v, start.velocity.w));
   if (parity == 0u) {
-    state_b[AT(i)] = end;
+    state_b[i] = end;
   } else {
-    state_a[AT(i)] = end;
+    state_a[i] = end;
   }
 }
 
 void main() {
   if (enter() != PHASE_DONE) return;
   uint i = item_index();
-  if (i < item_end(particle_count)) finish(i);
+  if (i < particle_count) finish(i);
   precise vec4 total;
   if (!reduce(vec4(0.0), total) || gl_LocalInvocationIndex != 0u) return;
   if (ball_count == 0u) {

@@ -3,6 +3,6 @@ layout(std430, binding = BINDING_STATE_A) restrict buffer StateA { Particle stat
 layout(std430, binding = BINDING_STATE_B) restrict buffer StateB { Particle state_b[]; };
 
 Particle state(uint i) {
-  if (parity == 0u) return state_a[AT(i)];
-  return state_b[AT(i)];
+  if (parity == 0u) return state_a[i];
+  return state_b[i];
 }

@@ -10,7 +10,7 @@
 // Returns 0, r·z, 0, 0.
 vec4 update(uint i) {
   precise float alpha = prescribing ? 1.0 : solve.alpha;
-  precise vec3 along_p = alpha * search[AT_SEARCH(i)].xyz;
+  precise vec3 along_p = alpha * search[i].xyz;
   precise vec3 delta = own(OWN_DELTA, i) + along_p;
   if (solve.updates == 0u) delta = prescribing ? own(OWN_PRESCRIBED, i) : along_p;
   precise vec3 r = own(OWN_RESIDUAL, i) - alpha * own(OWN_PRODUCT, i);
@@ -26,7 +26,7 @@ void main() {
   if (enter() != PHASE_CG) return;
   uint i = item_index();
   precise vec4 element = vec4(0.0);
-  if (i < item_end(particle_count)) element = update(i);
+  if (i < particle_count) element = update(i);
   precise vec4 total;
   if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;
   ++solve.updates;

@@ -37,9 +37,9 @@ Walk walk_words(uint place) {
   uint first = incident_start[INCIDENT_HEAD + slice];
   uint count = (incident_start[INCIDENT_HEAD + slice + 1u] - first) / SPRING_SLICE;
 #ifdef ASPIC_LATTICES
-  return Walk(0u, count, AT_WORD(first) + place % SPRING_SLICE, 0u, 0u, 0, 0, 0u);
+  return Walk(0u, count, first + place % SPRING_SLICE, 0u, 0u, 0, 0, 0u);
 #else
-  return Walk(0u, count, AT_WORD(first) + place % SPRING_SLICE);
+  return Walk(0u, count, first + place % SPRING_SLICE);
 #endif
 }
 

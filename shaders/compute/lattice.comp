@@ -24,7 +24,6 @@ uint lattice_of(inout uint run) {
 
 void main() {
   uint run = item_index();
-  if (run >= item_end(NO_BODY)) return;
   uint l = lattice_of(run);
   if (l == lattice_count || halted()) return;
   Lattice lattice = lattices[l];

@@ -12,7 +12,7 @@ precise vec3 other_x, other_v;
 
 // Particle p of the run, from the state.
 #define TAKE(p)                                                            \
-  own[p] = stage_state[AT(uint(min(first_of_run + (p), last_of_lattice)))];   \
+  own[p] = stage_state[uint(min(first_of_run + (p), last_of_lattice))];   \
   force[p] = own[p].velocity.w * gravity.xyz;                              \
   steps[p] = steps_from(place, size);                                      \
   place.z++;                                                               \

@@ -13,10 +13,6 @@
 #define MAX_TERRAINS 64
 #define MAX_PULLS 256  // most_pulls of include/aspic/inputs.h
 #define MAX_POSES 510  // of moving terrain, in the table of the next steps: 16 KiB with its head
-// Particles of a tile of a cube along i, j and k: a group's. With two on each side it takes 27 KiB, of 32 that are certain.
-#define TILE_I 4
-#define TILE_J 8
-#define TILE_K 8
 // With ASPIC_ACTUATED the buffer of BINDING_INCIDENT_START has these words before the starts, then the constants of the spring
 // classes (k, c, whether cord), then rest lengths: for each stage of the next steps a row of all classes.
 #define LENGTHS_FIRST_STEP 0u  // step of the first row
@@ -87,8 +83,6 @@
 #define LOCATION_BALL_PARITY 2  // explicit methods: slot of the balls' state at the start of the step
 #define LOCATION_BALL_PHASE 3   // BALL_PHASE_…
 #define LOCATION_BALL_KIND 4    // KIND_… of the candidates that a dispatch looks at
-#define LOCATION_WINDOW 5       // what a dispatch over a part of the items sees: compute/dispatch.glsl
-#define LOCATION_FIRST_SPRING 6
 #define LOCATION_TOUCH_COUNT 7  // encounters, or particles, of a dispatch
 #define LOCATION_TOUCH_NUMBER 8  // seconds since the initial state, or the square of a way [m²]
 

@@ -5,13 +5,13 @@ layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer WideState
 vec2 halves(double pair) { return uintBitsToFloat(unpackDouble2x32(pair)); }
 
 void read_neighbour(uint i, out vec3 x, out vec3 v) {
-  precise dvec4 wide = wide_state[AT(i)];
+  precise dvec4 wide = wide_state[i];
   x = vec3(halves(wide.x), halves(wide.y).x);
   v = vec3(halves(wide.z), halves(wide.w).x);
 }
 #else
 void read_neighbour(uint i, out vec3 x, out vec3 v) {
-  Particle other = stage_state[AT(i)];
+  Particle other = stage_state[i];
   x = other.position.xyz;
   v = other.velocity.xyz;
 }

@@ -23,12 +23,12 @@ uint blocks_of(uint count) { return (count + REDUCTION_BLOCK - 1u) / REDUCTION_B
 
 // True in all invocations of the one group that is last; `total` is then the result over all particles.
 bool reduce(vec4 element, out vec4 total) {
-  uint block = FIRST_ITEM / REDUCTION_BLOCK + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   uint blocks = blocks_of(particle_count);
   reduce_block(element);
   if (gl_LocalInvocationIndex == 0u) {
     reduction_is_last = false;
-    if (block < blocks_of(item_end(particle_count))) {
+    if (block < blocks_of(particle_count)) {
       partials[block] = reduction[0];
       memoryBarrierBuffer();
       reduction_is_last = atomicAdd(solve.blocks_done, 1u) == blocks - 1u;

@@ -13,12 +13,12 @@ layout(std430, binding = BINDING_SPRING_FORCES) restrict writeonly buffer Spring
 
 void main() {
   uint s = item_index();
-  if (s >= item_end(spring_count) || halted()) return;
+  if (s >= spring_count || halted()) return;
   count_item(s, spring_count);
-  uvec2 ends = springs[AT_ITEM(s)];
-  Particle a = stage_state[AT(ends.x)];
-  Particle b = stage_state[AT(ends.y >> class_bits)];
+  uvec2 ends = springs[s];
+  Particle a = stage_state[ends.x];
+  Particle b = stage_state[ends.y >> class_bits];
   use_lengths(step_index, stage_index);
   SpringClass spring = spring_class(ends.y & ((1u << class_bits) - 1u));
-  spring_forces[AT_ITEM(s)] = link_force(spring, a.position.xyz, a.velocity.xyz, b.position.xyz, b.velocity.xyz);
+  spring_forces[s] = link_force(spring, a.position.xyz, a.velocity.xyz, b.position.xyz, b.velocity.xyz);
 }

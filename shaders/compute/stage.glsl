@@ -26,7 +26,7 @@ void finish_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
     atomicMin(control.bad_step, step_index);
     atomicMin(control.bad_particle, bad);
   }
-  out_state[AT(i)] = Particle(vec4(x, start.position.w), vec4(v, start.velocity.w));
+  out_state[i] = Particle(vec4(x, start.position.w), vec4(v, start.velocity.w));
 }
 
 // p: the particle in this stage; f_in: all forces but the ground's [N].
@@ -35,7 +35,7 @@ void end_stage(uint i, Particle p, vec3 f_in) {
 #ifdef ASPIC_ONE_STAGE
   Particle start = p;
 #else
-  Particle start = start_state[AT(i)];
+  Particle start = start_state[i];
 #endif
   if (p.position.w != 0.0) {
     if (contact_model == CONTACT_COURSE) {
@@ -53,18 +53,18 @@ void end_stage(uint i, Particle p, vec3 f_in) {
   finish_step(i, start, slope_x, slope_v);
 #else
   if (stage.accumulate != 0u) {
-    slope_x = stage_sums[AT(i)].position.xyz + slope_x;
-    slope_v = stage_sums[AT(i)].velocity.xyz + slope_v;
+    slope_x = stage_sums[i].position.xyz + slope_x;
+    slope_v = stage_sums[i].velocity.xyz + slope_v;
   }
   if (stage.last != 0u) {
     finish_step(i, start, slope_x, slope_v);
     return;
   }
-  if (stage.weight != 0.0) stage_sums[AT(i)] = Particle(vec4(slope_x, 0.0), vec4(slope_v, 0.0));
+  if (stage.weight != 0.0) stage_sums[i] = Particle(vec4(slope_x, 0.0), vec4(slope_v, 0.0));
   precise vec3 next_v = start.velocity.xyz + stage.advance * a;
   precise vec3 moves = drift == DRIFT_MEAN_VELOCITY ? 0.5 * (p.velocity.xyz + next_v) : p.velocity.xyz;
   precise vec3 next_x = start.position.xyz + stage.advance * moves;
-  out_state[AT(i)] = Particle(vec4(next_x, start.position.w), vec4(next_v, start.velocity.w));
+  out_state[i] = Particle(vec4(next_x, start.position.w), vec4(next_v, start.velocity.w));
 #endif
 }
 
@@ -73,7 +73,7 @@ void finish_stage(uint i, Particle p, vec3 f_springs) {
   count_item(i, particle_count);
   precise vec3 f = with_pulls(i, p.position.xyz, p.velocity.xyz, f_springs);
 #ifdef ASPIC_TOUCH
-  out_state[AT(i)] = Particle(p.position, vec4(f, p.velocity.w));
+  out_state[i] = Particle(p.position, vec4(f, p.velocity.w));
 #else
   end_stage(i, p, f);
 #endif

@@ -11,14 +11,14 @@ layout(std430, binding = BINDING_SPRING_FORCES) restrict readonly buffer SpringF
 
 void main() {
   uint i = item_index();
-  if (i >= item_end(particle_count) || halted()) return;
-  Particle p = stage_state[AT(i)];
+  if (i >= particle_count || halted()) return;
+  Particle p = stage_state[i];
   precise vec3 f = p.velocity.w * gravity.xyz;
   Walk w = walk_words(i);
   for (w.end = bounded(w.end, KERNEL_SUM_SPRINGS); w.at < w.end; ++w.at) {
     uint word = word_at(w);  // spring << 1 | 1 at its end b
     if (word == NO_SPRING) continue;
-    precise vec3 on_a = spring_forces[AT_SPRING(word >> 1u)].xyz;
+    precise vec3 on_a = spring_forces[word >> 1u].xyz;
     f += (word & 1u) == 0u ? on_a : -on_a;
   }
   finish_stage(i, p, f);

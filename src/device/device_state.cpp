@@ -31,29 +31,8 @@ layout::Lattices table_of(const Model& model, IncidentWords kind, const std::vec
   return table;
 }
 
-CellBlocks blocks_of(const Model& model, IncidentWords kind, std::uint64_t block_bytes) {
-  return kind == IncidentWords::beside_cells ? cell_blocks(model, MAX_LATTICES, block_bytes) : CellBlocks();
-}
-
-/// By record: the particles of its block, and of those in which it has neighbours.
-std::vector<IndexRange> particles_near(const Model& model, const CellBlocks& cells,
-                                       const std::vector<std::uint32_t>& records, std::size_t words) {
-  std::vector<IndexRange> near;
-  near.reserve(records.size() / words);
-  for (std::size_t word = 0; word < records.size(); word += words) {
-    const CellBody& taken = cells.bodies[records[word] >> block_bits];
-    const Body& body = model.bodies[taken.body];
-    const std::uint64_t block = records[word] & ((1u << block_bits) - 1), last = taken.block_count - 1,
-                        reach = 2 * (std::uint64_t{taken.plane_blocks} + taken.row_blocks);
-    const auto first_of = [&](std::uint64_t n) { return cells.map[taken.first_block + n] >> block_places; };
-    // A few more of the rows in which they end.
-    const std::uint64_t low = first_of(block - std::min(block, reach)),
-                        high = first_of(std::min(block + reach, last)), few = 2 * block_places,
-                        end = std::uint64_t{body.first_particle} + body.particle_count;
-    near.push_back(
-        {std::max<std::uint64_t>(low, body.first_particle + few) - few, std::min(high + few, end)});
-  }
-  return near;
+CellBlocks blocks_of(const Model& model, IncidentWords kind) {
+  return kind == IncidentWords::beside_cells ? cell_blocks(model, MAX_LATTICES) : CellBlocks();
 }
 
 /// The buffers of bodies of cells, none of which need more than a block.
@@ -90,38 +69,7 @@ Status make_cells(gl::Context& context, const Model& model, const CellBlocks& ce
             gl::Buffer::of(context, "bodies of cells", std::span(&table, 1), gl::BufferKind::uniform));
   made.class_width = cells.class_width;
   made.blocks = {cells.plain_blocks(), cells.mixed_blocks()};
-  if (std::uint64_t{model.particle_count()} * sizeof(layout::Particle) <=
-      context.info().limits.storage_block_bytes)
-    return {};
-  made.block_particles = {particles_near(model, cells, cells.plain, plain_words),
-                          particles_near(model, cells, cells.mixed, mixed_words)};
   return {};
-}
-
-/// Of words whose low `bits` say something else.
-std::vector<SliceWords> slices_of(const IncidentSprings& rows, std::uint32_t bits) {
-  std::vector<SliceWords> slices;
-  for (std::size_t s = 0; s < rows.start.size(); ++s) {
-    SliceWords& slice = slices.emplace_back(SliceWords{rows.start[s]});
-    const std::uint32_t end = s + 1 < rows.start.size() ? rows.start[s + 1] : rows.start[s];
-    std::uint32_t lowest = no_spring, highest = 0;
-    for (std::uint32_t w = rows.start[s]; w < end; ++w) {
-      if (rows.words[w] == no_spring) continue;
-      lowest = std::min(lowest, rows.words[w] >> bits);
-      highest = std::max(highest, rows.words[w] >> bits);
-    }
-    if (lowest <= highest) slice.named = {lowest, std::uint64_t{highest} + 1};
-  }
-  return slices;
-}
-
-std::vector<IndexRange> ends_of(std::span<const std::array<std::uint32_t, 2>> springs, std::uint32_t bits) {
-  std::vector<IndexRange> units((springs.size() + spring_unit - 1) / spring_unit);
-  for (std::size_t s = 0; s < springs.size(); ++s) {
-    const auto [a, packed] = springs[s];
-    units[s / spring_unit].take({a, std::uint64_t{packed >> bits} + 1});  // a < b
-  }
-  return units;
 }
 
 }  // namespace
@@ -137,41 +85,35 @@ bool has_cells(const Model& model) {
          std::ranges::any_of(model.bodies, [](const Body& body) { return has_cells(body); });
 }
 
-std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind, std::uint64_t block_bytes) {
+std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind) {
   const bool listed = kind == IncidentWords::springs;
-  const CellBlocks cells = blocks_of(model, kind, block_bytes);
+  const CellBlocks cells = blocks_of(model, kind);
   return sizeof(layout::Lattices) + incident_counts(model, kind, cells.taken(model)).bytes() +
          (listed ? spring_count(model) * sizeof(layout::uvec2) : 0) +
          (cells.any() ? sizeof(layout::Cells) + cells.words() * sizeof(std::uint32_t) : 0);
 }
 
-void IndexRange::take(const IndexRange& other) {
-  if (other.count() == 0) return;
-  *this = count() == 0 ? other : IndexRange{std::min(first, other.first), std::max(end, other.end)};
-}
-
 Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& context, const Model& model,
-                                                                 IncidentWords kind, gl::BufferKind buffers) {
+                                                                 IncidentWords kind) {
   auto made = std::make_shared<SpringBuffers>();
   made->context = &context;
   made->kind = kind;
   if (kind == IncidentWords::springs) {
     ASPIC_TRY(const auto springs, packed_springs(model));
-    ASPIC_TRY(made->springs, gl::Buffer::of(context, "springs", springs, buffers));
-    made->spring_ends = ends_of(springs, class_bits(model));
+    ASPIC_TRY(made->springs, gl::Buffer::of(context, "springs", springs));
   }
-  const CellBlocks cells = blocks_of(model, kind, context.info().limits.storage_block_bytes);
+  const CellBlocks cells = blocks_of(model, kind);
   const std::vector<bool> taken = cells.taken(model);
-  made->walked = walked_runs(model, kind, taken);
-  const layout::Lattices table = table_of(model, kind, made->walked);
+  const std::vector<WalkedRun> walked = walked_runs(model, kind, taken);
+  const layout::Lattices table = table_of(model, kind, walked);
   made->listed = table.listed_count;
   ASPIC_TRY(made->lattices,
             gl::Buffer::of(context, "lattices", std::span(&table, 1), gl::BufferKind::uniform));
   if (cells.any()) ASPIC_CHECK(make_cells(context, model, cells, *made));
   ASPIC_TRY(const IncidentSprings rows, incident_springs(model, kind, taken));
   ASPIC_TRY(made->incident_start, gl::Buffer::of(context, "incident spring rows", rows.start));
-  ASPIC_TRY(made->incident, gl::Buffer::of(context, "incident springs", rows.words, buffers));
-  made->slices = slices_of(rows, kind == IncidentWords::springs ? 1u : class_bits(model));
+  ASPIC_TRY(made->incident, gl::Buffer::of(context, "incident springs", rows.words));
+  made->starts = rows.start;
   return std::shared_ptr<const SpringBuffers>(std::move(made));
 }
 

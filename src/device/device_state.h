@@ -11,44 +11,21 @@
 
 namespace aspic {
 
-/// Consecutive numbers: first ≤ … < end.
-struct IndexRange {
-  std::uint64_t first = 0, end = 0;
-  std::uint64_t count() const { return end - first; }
-  /// Grows to hold the other one, too; empty ones hold nothing.
-  void take(const IndexRange& other);
-  bool operator==(const IndexRange&) const = default;
-};
-
-/// Springs that SpringBuffers::spring_ends speaks of together.
-inline constexpr std::uint32_t spring_unit = 256;
-
-/// Where the words of a slice of particles begin, and the particles or springs they name.
-struct SliceWords {
-  std::uint32_t first_word = 0;
-  IndexRange named = {};  ///< particles, or springs
-};
-
 /// Nothing writes them once they are made, so solvers and pictures of one context may share them.
 struct SpringBuffers {
   const gl::Context* context = nullptr;
   IncidentWords kind = IncidentWords::neighbours;  ///< what the incident words mean
   gl::Buffer incident_start;                       ///< BINDING_INCIDENT_START
   gl::Buffer incident;                             ///< BINDING_INCIDENT
-  gl::Buffer springs;              ///< BINDING_SPRINGS: packed_springs(), with words that name springs alone
-  std::vector<SliceWords> slices;  ///< of the words, and one past the last
-  std::vector<IndexRange> spring_ends;  ///< particles that each spring_unit of `springs` join
+  gl::Buffer springs;   ///< BINDING_SPRINGS: packed_springs(), with words that name springs alone
   gl::Buffer lattices;  ///< BINDING_LATTICES, if the words leave lattices out; else a table without any
-  std::vector<WalkedRun> walked;  ///< particles that have words
-  std::uint32_t listed = 0;       ///< how many
+  std::vector<std::uint32_t> starts;  ///< what incident_start holds
+  std::uint32_t listed = 0;           ///< particles that have words
   /// BINDING_CELLS and BINDING_CELL_BODIES: what words beside cells leave out; empty handles where there is
   /// nothing.
   gl::Buffer cells, cell_bodies;
   std::uint32_t class_width = 0;             ///< CellBlocks::class_width
   std::array<std::uint32_t, 2> blocks = {};  ///< plain and mixed ones with particles
-  /// Of each of them the particles that it and its neighbours have; none where the state fits into a storage
-  /// block.
-  std::array<std::vector<IndexRange>, 2> block_particles;
 
   std::uint64_t bytes() const {
     return incident_start.bytes() + incident.bytes() + springs.bytes() + lattices.bytes() + cells.bytes() +
@@ -56,18 +33,18 @@ struct SpringBuffers {
   }
 };
 
-/// Bytes of them, without making them, on a device with storage blocks of so many bytes.
-std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind, std::uint64_t block_bytes);
+/// Bytes of them, without making them.
+std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind);
 
 /// Whether the model has lattices, and not too many for words beside them.
 bool has_lattices(const Model& model);
 /// Whether it has bodies of cells for words beside cells.
 bool has_cells(const Model& model);
 
-/// Errors: as incident_springs and Buffer::create; `buffers`: storage or sliced. Words beside lattices and
-/// beside cells take a model for which has_lattices() and has_cells().
+/// Errors: as incident_springs and Buffer::create. Words beside lattices and beside cells take a model for
+/// which has_lattices() and has_cells().
 Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& context, const Model& model,
-                                                                 IncidentWords kind, gl::BufferKind buffers);
+                                                                 IncidentWords kind);
 
 /// Whether both models' springs are the same words on the device; constants of their classes do not matter.
 bool same_springs(const Model& a, const Model& b);

@@ -22,16 +22,16 @@ constexpr std::uint64_t token_bytes = 16;
 Status Buffer::check_size(const Context& context, std::string_view name, std::uint64_t bytes,
                           BufferKind kind) {
   const DeviceLimits& limits = context.info().limits;
-  const bool storage = kind != BufferKind::uniform, sliced = kind == BufferKind::sliced;
-  const std::uint64_t limit = sliced    ? limits.buffer_bytes
-                              : storage ? std::min(limits.storage_block_bytes, limits.buffer_bytes)
-                                        : limits.uniform_block_bytes;
+  const bool storage = kind != BufferKind::uniform;
+  const std::uint64_t limit =
+      storage ? std::min(limits.storage_block_bytes, limits.buffer_bytes) : limits.uniform_block_bytes;
   if (bytes <= limit) return {};
-  return fail(ErrorCode::scene_rejected,
-              "The {} buffer \"{}\" needs {} ({} bytes), but {} takes {} of {} ({} bytes) at most. "
-              "Make the scene smaller, or choose another device or backend.",
-              storage ? "storage" : "uniform", name, human_bytes(bytes), bytes, context.info().renderer,
-              sliced ? "buffers" : "blocks", human_bytes(limit), limit);
+  return advised(
+      fail(ErrorCode::scene_rejected,
+           "The {} buffer \"{}\" needs {} ({} bytes), but {} takes blocks of {} ({} bytes) at most.",
+           storage ? "storage" : "uniform", name, human_bytes(bytes), bytes, context.info().renderer,
+           human_bytes(limit), limit),
+      {advice("make the scene smaller"), use_backend("cpu"), advice("choose another device")});
 }
 
 Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t bytes, BufferKind kind) {

@@ -19,7 +19,6 @@ namespace aspic::gl {
 /// What a buffer is bound as, which decides the limit on its size.
 enum class BufferKind {
   storage,  ///< shader storage block; also vertices, indirect arguments, copies
-  sliced,   ///< the same, which passes see in parts where it is larger than a block
   uniform   ///< uniform block
 };
 
@@ -32,9 +31,8 @@ class Buffer {
 
   /// Allocates `bytes` of undefined content; 0 is legal (a token allocation is made, so that it can be
   /// bound). `name` appears in errors and, on debug contexts, in the driver's messages. Error
-  /// (scene_rejected): more than the device's block size, or a sliced one more than its buffers hold, or the
-  /// device has no memory left; the sentence gives the figures. Error (no_device): the context is lost. No GL
-  /// error is left behind.
+  /// (scene_rejected): more than the device's block size, or the device has no memory left; the sentence gives the
+  /// figures. Error (no_device): the context is lost. No GL error is left behind.
   static Result<Buffer> create(Context& context, std::string name, std::uint64_t bytes,
                                BufferKind kind = BufferKind::storage);
 

@@ -134,6 +134,18 @@ Result<MantissaReport> try_mantissas(Context& context, const ShaderLibrary& libr
 
 Result<Arithmetic> choose_arithmetic(Context& context, const ShaderLibrary& library,
                                      std::span<const Define> extra) {
+  if (!context.info().is_software) {
+    // Hardware mostly needs the quick form of one step, whose canaries compile while the first one does.
+    std::vector<Define> guess = {{"ASPIC_CORRECT_DIV", "1"},
+                                 {"ASPIC_CORRECT_SQRT", "1"},
+                                 {"ASPIC_FUSED_FMA", "1"},
+                                 {quick_define, "1"}};
+    guess.insert(guess.end(), extra.begin(), extra.end());
+    ASPIC_TRY(const auto first, context.programs().start(library, {.compute = "compute/canary.comp"}, extra));
+    for (const char* path : {"compute/canary_mantissas.comp", "compute/canary.comp"}) {
+      ASPIC_TRY(const auto begun, context.programs().start(library, {.compute = path}, guess));
+    }
+  }
   ASPIC_TRY(auto device, measure_arithmetic(context, library, extra));
   Arithmetic choice{device, std::nullopt, {}};
   if (!device.division_exact()) choice.defines.push_back({"ASPIC_CORRECT_DIV", "1"});

@@ -4,7 +4,6 @@
 
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
-#include "gpu_solver/windows.h"
 #include "model/cube.h"
 
 namespace aspic {
@@ -24,21 +23,14 @@ std::optional<CapacityLimit> obstacle(const ForcePathRow& path, Integrator integ
   const std::uint64_t largest = std::max({particles * method.particle_bytes, words * sizeof(std::uint32_t),
                                           listed * sizeof(layout::uvec2), springs * path.spring_bytes});
   if (largest > limits.buffer_bytes) return CapacityLimit::buffer;
-  // Passes over windows see a few particles' neighbours at least, two planes away, and their springs.
-  const std::uint64_t seen = 2 * window_unit + 2 * (2 * n * n + 2 * n + 8),
-                      seen_bytes =
-                          std::max(std::min(seen, particles) * sizeof(layout::Particle),
-                                   std::min(seen * LATTICE_DIRECTIONS / 2, springs) * path.spring_bytes);
-  if (largest > limits.storage_block_bytes && seen_bytes > limits.storage_block_bytes)
-    return CapacityLimit::block;
+  if (largest > limits.storage_block_bytes) return CapacityLimit::block;
   // A word holds a particle and two bits of class, or a spring and its side.
   if (words > 0xffffffffu || (!lattice && particles >= 1u << 30) || 2 * listed > 0xffffffffu)
     return CapacityLimit::words;
   ModelCounts counts;
   counts.particles = particles;
-  const std::uint64_t all = method.bytes(counts, integrator, limits.storage_block_bytes) +
-                            words * sizeof(std::uint32_t) + listed * sizeof(layout::uvec2) +
-                            springs * path.spring_bytes;
+  const std::uint64_t all = method.bytes(counts, integrator) + words * sizeof(std::uint32_t) +
+                            listed * sizeof(layout::uvec2) + springs * path.spring_bytes;
   if (free && all > *free) return CapacityLimit::memory;
   return std::nullopt;
 }

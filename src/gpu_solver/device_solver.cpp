@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <utility>
 #include <variant>
@@ -40,12 +41,7 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
   ASPIC_TRY(const layout::Simulation block, simulation_block(*model_));
   const std::uint64_t state_bytes = std::uint64_t{model_->particle_count()} * sizeof(layout::Particle);
   for (Buffer& state : states_) {
-    // Balls and other bodies may meet any particle, so their passes see complete states.
-    if (model_->ball_count() > 0 || bodies_touch(*model_)) {
-      ASPIC_TRY(state, Buffer::create(context_, "particle state", state_bytes));
-    } else {
-      ASPIC_TRY(state, sliced("particle state", state_bytes));
-    }
+    ASPIC_TRY(state, Buffer::create(context_, "particle state", state_bytes));
   }
   ASPIC_TRY(simulation_,
             Buffer::of(context_, "simulation constants", std::span(&block, 1), gl::BufferKind::uniform));
@@ -59,10 +55,9 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
       springs_ = theirs;
   }
   if (!springs_) {
-    ASPIC_TRY(springs_, make_spring_buffers(context_, *model_, words, gl::BufferKind::sliced));
+    ASPIC_TRY(springs_, make_spring_buffers(context_, *model_, words));
   }
   ASPIC_CHECK(lengths_.build(context_, *model_, *springs_));
-  largest_sliced_ = std::max({largest_sliced_, springs_->incident.bytes(), springs_->springs.bytes()});
   return {};
 }
 
@@ -215,32 +210,19 @@ Result<gl::Pass> DeviceSolver::pass(const KernelOptions& kernels, std::string_vi
   return gl::Pass(*programs_.back(), std::move(bindings), gl::ReadBy::compute_pass);
 }
 
-Result<gl::Buffer> DeviceSolver::sliced(std::string name, std::uint64_t bytes) {
-  largest_sliced_ = std::max(largest_sliced_, bytes);
-  return Buffer::create(context_, std::move(name), bytes, gl::BufferKind::sliced);
-}
-
-Result<SlicedPass> DeviceSolver::sliced_pass(KernelOptions kernels, std::string_view path,
-                                             std::vector<gl::Binding> bindings, std::uint32_t items,
-                                             const ElementBytes& bytes, const Seen& seen,
-                                             std::uint64_t unit_items) {
-  std::vector<Window> windows;
-  if (windowed()) {
-    kernels.defines.push_back({"ASPIC_WINDOWS", "1"});
-    ASPIC_TRY(windows,
-              windows_over(items, context_.info().limits.storage_block_bytes, bytes, seen, unit_items));
-  }
+Result<ItemPass> DeviceSolver::item_pass(const KernelOptions& kernels, std::string_view path,
+                                         std::vector<gl::Binding> bindings, std::uint32_t items) {
   ASPIC_TRY(auto made, pass(kernels, path, std::move(bindings)));
-  return SlicedPass(std::move(made), items, std::move(windows));
+  return ItemPass{std::move(made), items};
 }
 
-Status DeviceSolver::check_touching() const {
-  if (!touch_.any() || !windowed()) return {};
-  return advised(
-      fail(ErrorCode::scene_rejected,
-           "contact of bodies needs the particles in one block of {} memory, and there are {} of them.",
-           context_.info().renderer, model_->particle_count()),
-      {use_backend("cpu"), advice("switch contact of bodies off")});
+void ItemPass::dispatch(std::span<const gl::Binding> buffers, gl::ReadBy readers) const {
+  std::array<gl::Binding, 8> bound;
+  assert(buffers.size() <= bound.size());
+  std::size_t count = 0;
+  for (const gl::Binding& each : buffers)
+    if (each.buffer && each.buffer->bytes() > 0) bound[count++] = each;
+  pass.dispatch_for(items, std::span<const gl::Binding>(bound).first(count), readers);
 }
 
 void DeviceSolver::keep_counting() {

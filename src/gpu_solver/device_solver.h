@@ -14,7 +14,6 @@
 #include "gpu_solver/lengths.h"
 #include "gpu_solver/step_inputs.h"
 #include "gpu_solver/touch_buffers.h"
-#include "gpu_solver/windows.h"
 #include "model/counts.h"
 
 namespace aspic {
@@ -22,6 +21,16 @@ namespace aspic {
 /// Readers of the data that is about to leave the solver.
 inline constexpr gl::ReadBy anyone =
     gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw | gl::ReadBy::read_back | gl::ReadBy::copy;
+
+/// A pass over a fixed number of items.
+struct ItemPass {
+  gl::Pass pass;
+  std::uint32_t items = 0;
+
+  /// `buffers`: at most 8; those that are null or empty are left out, since the kernel reads none of them.
+  void dispatch(std::span<const gl::Binding> buffers, gl::ReadBy readers) const;
+  const gl::Program& program() const { return pass.program(); }
+};
 
 /// Every public call enters the solver's context (gpu/current.h).
 class DeviceSolver : public GpuSolver {
@@ -75,17 +84,9 @@ class DeviceSolver : public GpuSolver {
   /// A program and the pass that runs it.
   Result<gl::Pass> pass(const KernelOptions& kernels, std::string_view path,
                         std::vector<gl::Binding> bindings);
-  /// The same over `items`, in windows where sliced() arrays are larger than a block.
-  Result<SlicedPass> sliced_pass(KernelOptions kernels, std::string_view path,
-                                 std::vector<gl::Binding> bindings, std::uint32_t items,
-                                 const ElementBytes& bytes, const Seen& seen,
-                                 std::uint64_t unit_items = window_unit);
-  /// A buffer that sliced passes alone see.
-  Result<gl::Buffer> sliced(std::string name, std::uint64_t bytes);
-  /// Whether the passes go by windows. Known once all sliced buffers are made.
-  bool windowed() const { return largest_sliced_ > context_.info().limits.storage_block_bytes; }
-  /// Error (scene_rejected): bodies touch in a scene that goes by windows.
-  Status check_touching() const;
+  /// The same over `items`.
+  Result<ItemPass> item_pass(const KernelOptions& kernels, std::string_view path,
+                             std::vector<gl::Binding> bindings, std::uint32_t items);
   void mark(std::size_t kind) const {
     if (profiler_) profiler_->mark(kind);
   }
@@ -141,7 +142,6 @@ class DeviceSolver : public GpuSolver {
   Inputs held_;                             // whose pins the state's weights have
   std::vector<std::uint32_t> moving_pins_;  // of the scene's pins those that move in the state
   bool pins_held_ = false;                  // those are inputs(), and none moves
-  std::uint64_t largest_sliced_ = 0;        // bytes
   std::uint64_t bytes_ = 0;
 };
 
@@ -153,7 +153,7 @@ struct DeviceMethod {
                                              const GpuOptions& options, const ForcePathRow& path);
   bool (*takes)(const ForcePathRow& path);  ///< all paths that `automatic` stands for, at least
   /// gpu_bytes() without what all kinds share.
-  std::uint64_t (*bytes)(const ModelCounts& counts, Integrator integrator, std::uint64_t block_bytes);
+  std::uint64_t (*bytes)(const ModelCounts& counts, Integrator integrator);
   std::uint64_t particle_bytes;  ///< of its largest array, for each particle
   bool cells;                    ///< it has kernels that take bodies of cells by blocks
 };

@@ -65,7 +65,7 @@ class ExplicitSolver final : public DeviceSolver {
   std::uint32_t queue_steps(std::uint32_t count);
   Status build_lattice_pass(KernelOptions kernels, std::uint32_t run, const std::vector<Binding>& bindings);
   Status build_cell_passes(const KernelOptions& kernels, std::uint32_t run, std::vector<Binding> bindings);
-  void dispatch(const std::optional<SlicedPass>& pass, Kind kind, std::span<const SlicedArray> arrays,
+  void dispatch(const std::optional<ItemPass>& pass, Kind kind, std::span<const Binding> buffers,
                 ReadBy readers) const;
   Status build_rest(const KernelOptions& kernels, std::vector<Binding> bindings);
   void queue_rest(const TouchPasses::States& states, std::uint32_t step_index, std::uint32_t stage,
@@ -94,25 +94,16 @@ class ExplicitSolver final : public DeviceSolver {
   std::optional<Error> unusable_;    // the device dropped passes
   bool late_ = false;
   // Of each stage.
-  std::optional<SlicedPass> spring_pass_, lattice_pass_, plain_pass_, mixed_pass_, particle_pass_;
+  std::optional<ItemPass> spring_pass_, lattice_pass_, plain_pass_, mixed_pass_, particle_pass_;
 };
 
 Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t run,
                                           const std::vector<Binding>& bindings) {
-  const auto items = [&](const Body& body) {
-    return path_.tiles ? tiles_in(body).all() * tile_particles : (body.particle_count - 1) / run + 1;
-  };
-  std::uint32_t all = 0;
+  std::uint32_t items = 0;
   for (const Body& body : model_->bodies)
-    if (body.box()) all += items(body);
+    if (body.box()) items += (body.particle_count - 1) / run + 1;
   kernels.defines.push_back({"ASPIC_LATTICE_RUN", std::to_string(run)});
-  if (path_.tiles)
-    std::ranges::find(kernels.defines, "ASPIC_GROUP_SIZE", &gl::Define::name)->value =
-        std::to_string(tile_particles);
-  ASPIC_TRY(lattice_pass_,
-            sliced_pass(std::move(kernels), path_.lattice_kernel, bindings, all,
-                        {.particle = sizeof(layout::Particle)},
-                        path_.tiles ? seen_by_lattice_tiles(*model_) : seen_by_lattice_runs(*model_, run)));
+  ASPIC_TRY(lattice_pass_, item_pass(kernels, path_.lattice_kernel, bindings, items));
   return {};
 }
 
@@ -128,9 +119,7 @@ Status ExplicitSolver::build_cell_passes(const KernelOptions& kernels, std::uint
     if (kind == 1) own.defines.push_back({"ASPIC_MIXED", std::to_string(springs_->class_width)});
     const std::uint32_t items = springs_->blocks[kind] * (block_places / run);
     if (items > 0) {
-      ASPIC_TRY(*pass, sliced_pass(std::move(own), path_.cell_kernel, bindings, items,
-                                   {.particle = sizeof(layout::Particle)},
-                                   seen_by_blocks(*springs_, kind, run), block_places / run));
+      ASPIC_TRY(*pass, item_pass(own, path_.cell_kernel, bindings, items));
     }
     ++kind;
   }
@@ -139,10 +128,9 @@ Status ExplicitSolver::build_cell_passes(const KernelOptions& kernels, std::uint
 
 Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptions& options) {
   const std::uint64_t state_bytes = states_[0].bytes();
-  ASPIC_TRY(sums_, sliced("stage sums", keeps_sums(method_) ? state_bytes : 0));
+  ASPIC_TRY(sums_, Buffer::create(context_, "stage sums", keeps_sums(method_) ? state_bytes : 0));
   ASPIC_TRY(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
   looks_.emplace(context_, sizeof(layout::Control));
-  ASPIC_CHECK(check_touching());
   fast_ = options.spring_arithmetic == Arithmetic::fast;
   KernelOptions stage_kernels = kernels;
   if (fast_) stage_kernels.defines.push_back({"ASPIC_FAST", "1"});
@@ -151,13 +139,12 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   std::vector<Binding> bindings = {constants(),      control,  pulls_.binding(),
                                    poses_.binding(), starts(), lattices()};
   if (!path_.spring_kernel.empty()) {
-    ASPIC_TRY(forces_, sliced("spring forces", spring_count(*model_) * sizeof(layout::vec4)));
+    ASPIC_TRY(forces_,
+              Buffer::create(context_, "spring forces", spring_count(*model_) * sizeof(layout::vec4)));
     std::vector<Binding> of_springs = {constants(), control};
     if (lengths_.any()) of_springs.push_back({BINDING_SPRING_LENGTHS, &lengths_.buffer()});
-    ASPIC_TRY(spring_pass_, sliced_pass(stage_kernels, path_.spring_kernel, std::move(of_springs),
-                                        static_cast<std::uint32_t>(spring_count(*model_)),
-                                        {.item = sizeof(layout::vec4), .particle = sizeof(layout::Particle)},
-                                        seen_by_springs(*springs_)));
+    ASPIC_TRY(spring_pass_, item_pass(stage_kernels, path_.spring_kernel, std::move(of_springs),
+                                      static_cast<std::uint32_t>(spring_count(*model_))));
   }
   if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
   ASPIC_CHECK(touch_passes_.build(context_, kernels, {constants(), control}));
@@ -175,15 +162,11 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
   if (run > 1) stage_kernels.defines.push_back({"ASPIC_WIDE_LOADS", "1"});
   if (takes_lattices() && has_lattices(*model_))
-    ASPIC_CHECK(build_lattice_pass(stage_kernels, path_.tiles ? 1 : run, bindings));
+    ASPIC_CHECK(build_lattice_pass(stage_kernels, run, bindings));
   ASPIC_CHECK(build_cell_passes(stage_kernels, run, bindings));
   if (springs_->listed > 0 || model_->particle_count() == 0) {
     ASPIC_TRY(particle_pass_,
-              sliced_pass(stage_kernels, path_.particle_kernel, std::move(bindings), springs_->listed,
-                          {.particle = sizeof(layout::Particle),
-                           .word = sizeof(std::uint32_t),
-                           .spring = sizeof(layout::vec4)},
-                          seen_by_listed(*springs_)));
+              item_pass(stage_kernels, path_.particle_kernel, std::move(bindings), springs_->listed));
   }
   return balls_.build(context_, *model_, kernels,
                       {&simulation_, &control_, false, poses_.binding(), pulls_.binding()},
@@ -217,10 +200,10 @@ void ExplicitSolver::restart() {
   unusable_.reset();
 }
 
-void ExplicitSolver::dispatch(const std::optional<SlicedPass>& pass, Kind kind,
-                              std::span<const SlicedArray> arrays, ReadBy readers) const {
+void ExplicitSolver::dispatch(const std::optional<ItemPass>& pass, Kind kind,
+                              std::span<const Binding> buffers, ReadBy readers) const {
   if (!pass) return;
-  pass->dispatch(arrays, readers);
+  pass->dispatch(buffers, readers);
   mark(kind);
 }
 
@@ -239,29 +222,26 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     for (const auto* pass : {&lattice_pass_, &plain_pass_, &mixed_pass_, &particle_pass_})
       if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
     if (spring_pass_ && lengths_.any()) spring_pass_->program().set(LOCATION_STAGE, s);
-    constexpr std::uint64_t particle = sizeof(layout::Particle), force = sizeof(layout::vec4);
     const TouchPasses::States touching = {&states_[current_], &states_[stage_state], &states_[out]};
     if (touch_.any()) touch_passes_.queue_find(touching, step_index, time_of(step_index));
-    const SlicedArray stage = {BINDING_STAGE_STATE, &states_[stage_state], Over::particles, particle};
-    const std::array<SlicedArray, 6> arrays = {
-        {stage,
-         {BINDING_START_STATE, &states_[current_], Over::particles, particle},
-         {BINDING_OUT_STATE, &states_[out], Over::particles, particle},
-         {BINDING_STAGE_SUMS, &sums_, Over::particles, particle},
-         {BINDING_INCIDENT, &springs_->incident, Over::words, sizeof(std::uint32_t)},
-         {BINDING_SPRING_FORCES, &forces_, Over::springs, force}}};
+    const Binding stage = {BINDING_STAGE_STATE, &states_[stage_state]};
+    const std::array<Binding, 6> buffers = {{stage,
+                                             {BINDING_START_STATE, &states_[current_]},
+                                             {BINDING_OUT_STATE, &states_[out]},
+                                             {BINDING_STAGE_SUMS, &sums_},
+                                             {BINDING_INCIDENT, &springs_->incident},
+                                             {BINDING_SPRING_FORCES, &forces_}}};
     dispatch(spring_pass_, springs_kind,
-             std::array{stage,
-                        SlicedArray{BINDING_SPRINGS, &springs_->springs, Over::items, sizeof(layout::uvec2)},
-                        SlicedArray{BINDING_SPRING_FORCES, &forces_, Over::items, force}},
+             std::array<Binding, 3>{
+                 {stage, {BINDING_SPRINGS, &springs_->springs}, {BINDING_SPRING_FORCES, &forces_}}},
              ReadBy::compute_pass);
     const bool leaves = last_of_queue && s + 1 == stages && !balls_.any();
     const ReadBy readers = leaves ? anyone : ReadBy::compute_pass;
     // Cubes, cells and all else write different particles: one barrier does for them.
-    dispatch(lattice_pass_, lattices_kind, arrays, ReadBy::nobody);
-    dispatch(plain_pass_, cells_kind, arrays, ReadBy::nobody);
-    dispatch(mixed_pass_, cells_kind, arrays, ReadBy::nobody);
-    dispatch(particle_pass_, particles_kind, arrays, ReadBy::nobody);
+    dispatch(lattice_pass_, lattices_kind, buffers, ReadBy::nobody);
+    dispatch(plain_pass_, cells_kind, buffers, ReadBy::nobody);
+    dispatch(mixed_pass_, cells_kind, buffers, ReadBy::nobody);
+    dispatch(particle_pass_, particles_kind, buffers, ReadBy::nobody);
     gl::barrier(rest_pass_ ? ReadBy(ReadBy::compute_pass) : readers);
     if (touch_.any()) touch_passes_.queue_act(touching, step_index);
     if (rest_pass_) queue_rest(touching, step_index, s, readers);
@@ -377,7 +357,7 @@ Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, Sh
   return std::unique_ptr<GpuSolver>(std::move(solver));
 }
 
-std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator, std::uint64_t) {
+std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator) {
   const std::uint64_t states = keeps_sums(*free_flight_row(integrator).staged()) ? 4 : 3;
   return states * counts.particles * sizeof(layout::Particle) + sizeof(layout::Control);
 }

@@ -23,7 +23,6 @@ struct ForcePathRow {
   std::string_view spring_title = {};    ///< of that pass, in profiles
   std::string_view lattice_kernel = {};  ///< complete cubes, to the end of the stage; empty: as all else
   std::string_view lattice_title = {};
-  bool tiles = false;  ///< an item of that kernel is a place in a tile, else a run of particles
   std::string_view cell_kernel = {};  ///< bodies of cells by blocks, likewise
   std::string_view cell_title = {};
   std::string_view particle_kernel = {};  ///< one invocation per particle, to the end of the stage

@@ -20,7 +20,7 @@ namespace {
 /// Springs that are shared are held already.
 Status check_free_memory(gl::Context& context, const Model& model, const GpuOptions& options,
                          const ForcePathRow& path) {
-  const std::uint64_t needed = gpu_bytes(model, path.path, context.info().limits.storage_block_bytes),
+  const std::uint64_t needed = gpu_bytes(model, path.path),
                       shared =
                           options.share_springs_of ? options.share_springs_of->spring_buffers()->bytes() : 0;
   return context.check_memory(needed - std::min(needed, shared));
@@ -64,15 +64,14 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, SharedM
                            path.name, force_path_words(integrator, " or "))};
 }
 
-std::uint64_t gpu_bytes(const Model& model, ForcePath path, std::uint64_t block_bytes) {
+std::uint64_t gpu_bytes(const Model& model, ForcePath path) {
   const ModelCounts counts = count(model);
   const Integrator integrator = model.simulation.integrator;
   const DeviceMethod& method = device_method(integrator, counts.particles);
   const ForcePathRow& wanted = row_of(path, model);
   const ForcePathRow& row = method.takes(wanted) ? wanted : row_of(ForcePath::automatic, model);
   return ball_bytes(counts) + ball_face_bytes(model) + sizeof(layout::Simulation) + pull_table_bytes +
-         method.bytes(counts, integrator, block_bytes) +
-         spring_buffer_bytes(model, incident_words(model, row), block_bytes) +
+         method.bytes(counts, integrator) + spring_buffer_bytes(model, incident_words(model, row)) +
          row.spring_bytes * counts.springs() + length_bytes(model);
 }
 

@@ -96,8 +96,7 @@ inline Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, 
 }
 
 /// Bytes of device memory a solver of the model would hold; of a path that its integrator does not take, as
-/// automatic. `block_bytes`: the device's largest storage block (passes over windows hold a little more), or
-/// unlimited.
-std::uint64_t gpu_bytes(const Model& model, ForcePath path, std::uint64_t block_bytes = UINT64_MAX);
+/// automatic.
+std::uint64_t gpu_bytes(const Model& model, ForcePath path);
 
 }  // namespace aspic

@@ -41,7 +41,7 @@ class ImplicitSolver final : public DeviceSolver {
   Status build_passes(const KernelOptions& kernels, const GpuOptions& options) override;
   void restart() override;
   void dispatch(Kernel kernel, ReadBy readers = ReadBy::compute_pass) const {
-    passes_[kernel].dispatch(arrays_, readers);
+    passes_[kernel].dispatch(buffers_, readers);
     mark(kernel);
   }
   // A step may end in a later queue than its own, and would meet the pulls of that one.
@@ -73,8 +73,8 @@ class ImplicitSolver final : public DeviceSolver {
 
   ImplicitTouchPasses touch_passes_{touch_};
   Buffer trial_, search_, own_, solve_buffer_;
-  std::vector<SlicedPass> passes_;        // by Kernel
-  std::vector<SlicedArray> arrays_;       // of every pass
+  std::vector<ItemPass> passes_;          // by Kernel
+  std::vector<Binding> buffers_;          // of every pass
   layout::Solve solve_{};                 // as last read or written
   std::uint32_t target_ = 0;              // the device's target_step after all queues
   std::uint64_t queued_rounds_ = 0;       // since a step was last seen to end
@@ -90,24 +90,17 @@ class ImplicitSolver final : public DeviceSolver {
 
 Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptions& options) {
   const std::uint64_t particles = model_->particle_count(), vectors = particles * sizeof(layout::vec4);
-  ASPIC_TRY(trial_, sliced("trial velocities", vectors));
-  ASPIC_TRY(own_, sliced("solver vectors", OWN_VECTORS * vectors));
-  // In windows, the other data that neighbours need goes with it (shaders/compute/implicit.glsl).
-  const std::uint64_t search_bytes = (windowed() ? 2 : 1) * sizeof(layout::vec4);
+  ASPIC_TRY(trial_, Buffer::create(context_, "trial velocities", vectors));
+  ASPIC_TRY(own_, Buffer::create(context_, "solver vectors", OWN_VECTORS * vectors));
   const std::uint64_t touch_vectors = touch_.any() ? TOUCH_VECTORS * vectors : 0;
-  ASPIC_TRY(search_, sliced("search direction", particles * search_bytes + touch_vectors));
-  ASPIC_CHECK(check_touching());
+  ASPIC_TRY(search_, Buffer::create(context_, "search direction", vectors + touch_vectors));
   ASPIC_TRY(solve_buffer_, Buffer::create(context_, "solve control", solve_bytes(particles)));
   looks_.emplace(context_, sizeof(layout::Solve));
   const std::vector<Binding> bindings = {constants(), pulls_.binding(), poses_.binding(),
                                          starts(),    lattices(),       {BINDING_SOLVE, &solve_buffer_}};
-  constexpr std::uint64_t particle = sizeof(layout::Particle), own = OWN_VECTORS * sizeof(layout::vec4);
-  arrays_ = {{BINDING_STATE_A, &states_[0], Over::particles, particle},
-             {BINDING_STATE_B, &states_[1], Over::particles, particle},
-             {BINDING_TRIAL, &trial_, Over::particles, sizeof(layout::vec4)},
-             {BINDING_SEARCH, &search_, Over::particles, search_bytes},
-             {BINDING_INCIDENT, &springs_->incident, Over::words, sizeof(std::uint32_t)},
-             {BINDING_OWN, &own_, Over::items, own}};
+  buffers_ = {{BINDING_STATE_A, &states_[0]}, {BINDING_STATE_B, &states_[1]},
+              {BINDING_TRIAL, &trial_},       {BINDING_SEARCH, &search_},
+              {BINDING_OWN, &own_},           {BINDING_INCIDENT, &springs_->incident}};
   KernelOptions own_kernels = kernels;
   if (touch_.any()) own_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
   if (lengths_.any()) own_kernels.defines.push_back({"ASPIC_ACTUATED", "1"});
@@ -118,9 +111,7 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                             {BINDING_TRIAL, &trial_},
                                             {BINDING_SEARCH, &search_}}));
   for (const KernelRow& row : implicit_kernels) {
-    ASPIC_TRY(auto made, sliced_pass(own_kernels, row.path, bindings, model_->particle_count(),
-                                     {.item = own, .particle = particle, .word = sizeof(std::uint32_t)},
-                                     seen_by_particles(*model_, *springs_)));
+    ASPIC_TRY(auto made, item_pass(own_kernels, row.path, bindings, model_->particle_count()));
     passes_.push_back(std::move(made));
   }
   return balls_.build(context_, *model_, kernels,
@@ -381,10 +372,8 @@ Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, Sh
   return std::unique_ptr<GpuSolver>(std::move(solver));
 }
 
-std::uint64_t implicit_bytes(const ModelCounts& counts, Integrator, std::uint64_t block_bytes) {
-  // The solver's own vectors are the largest array of any lattice, net or cloth.
-  const bool windows = counts.particles * OWN_VECTORS * sizeof(layout::vec4) > block_bytes;
-  const std::uint64_t vectors = 1 + (windows ? 2 : 1) + OWN_VECTORS;
+std::uint64_t implicit_bytes(const ModelCounts& counts, Integrator) {
+  constexpr std::uint64_t vectors = 2 + OWN_VECTORS;  // with trial velocities and search directions
   return counts.particles * (2 * sizeof(layout::Particle) + vectors * sizeof(layout::vec4)) +
          solve_bytes(counts.particles);
 }

@@ -42,7 +42,7 @@ Status LengthBuffer::build(gl::Context& context, const Model& model, const Sprin
   if (model.actuation.empty()) return {};
   shares_ = shares_of(model.simulation.integrator);
   room_ = static_cast<std::uint32_t>(room_of(model, shares_.size()));
-  constants_at_ = LENGTHS_HEAD + springs.slices.size();
+  constants_at_ = LENGTHS_HEAD + springs.starts.size();
   const std::uint64_t classes = model.spring_classes.size();
   rows_at_ = constants_at_ + 3 * classes;
   ASPIC_TRY(buffer_,
@@ -53,7 +53,7 @@ Status LengthBuffer::build(gl::Context& context, const Model& model, const Sprin
   words[LENGTHS_CLASSES] = static_cast<std::uint32_t>(classes);
   words[LENGTHS_CONSTANTS] = static_cast<std::uint32_t>(constants_at_);
   words[LENGTHS_ROWS] = static_cast<std::uint32_t>(rows_at_);
-  for (const SliceWords& slice : springs.slices) words.push_back(slice.first_word);
+  words.insert(words.end(), springs.starts.begin(), springs.starts.end());
   buffer_.upload_items(words);
   set_model(model);
   return {};

@@ -115,8 +115,8 @@ class Builder {
     made_.class_width = class_width;
   }
 
-  /// Adds a body, unless it has too many patterns or takes `most_bytes` or more.
-  void add(const Model& model, std::uint32_t number, std::uint64_t most_bytes) {
+  /// Adds a body, unless it has too many patterns or lists of its springs take less.
+  void add(const Model& model, std::uint32_t number) {
     const Body& body = model.bodies[number];
     // A record numbers so many blocks, which are at least two points each.
     if (body.lattice->points() > std::size_t{2} << block_bits) return;
@@ -130,8 +130,7 @@ class Builder {
     add_blocks(added, *body.lattice, numbers, *classes, body.first_particle);
     const std::uint64_t bytes = sizeof(std::uint32_t) * (made_.words() - words_before + added.words()),
                         in_lists = 2 * sizeof(std::uint32_t) * springs.size();
-    if (std::max(patterns_.size(), halves_.size()) > most_patterns ||
-        bytes >= std::min(in_lists, most_bytes)) {
+    if (std::max(patterns_.size(), halves_.size()) > most_patterns || bytes >= in_lists) {
       patterns_.cut(patterns);
       halves_.cut(halves);
       return;
@@ -224,16 +223,14 @@ std::vector<bool> CellBlocks::taken(const Model& model) const {
   return are;
 }
 
-CellBlocks cell_blocks(const Model& model, std::size_t most_bodies, std::uint64_t most_bytes) {
+CellBlocks cell_blocks(const Model& model, std::size_t most_bodies) {
   const auto many_classes = [](const Body& body) { return has_cells(body) && body.class_count > 0xff; };
   Builder builder(std::ranges::any_of(model.bodies, many_classes) ? 16 : 8);
   CellBlocks& made = builder.made();
   // A word of the map names a particle in 28 bits.
   if (model.particle_count() >= 1u << (32 - block_places)) return {};
-  for (std::uint32_t b = 0; b < model.bodies.size() && made.bodies.size() < most_bodies; ++b) {
-    const std::uint64_t bytes = sizeof(std::uint32_t) * made.words();
-    if (has_cells(model.bodies[b]) && bytes < most_bytes) builder.add(model, b, most_bytes - bytes);
-  }
+  for (std::uint32_t b = 0; b < model.bodies.size() && made.bodies.size() < most_bodies; ++b)
+    if (has_cells(model.bodies[b])) builder.add(model, b);
   return std::move(made);
 }
 

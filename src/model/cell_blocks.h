@@ -64,9 +64,8 @@ struct CellBlocks {
 };
 
 /// Bodies of a lattice that do not follow from it alone, unless they would take more memory so than lists of
-/// their springs or have more than 65,536 patterns; the first `most_bodies` of them, and only while they take
-/// `most_bytes` together.
-CellBlocks cell_blocks(const Model& model, std::size_t most_bodies, std::uint64_t most_bytes);
+/// their springs or have more than 65,536 patterns; the first `most_bodies` of them.
+CellBlocks cell_blocks(const Model& model, std::size_t most_bodies);
 
 /// Whether cell_blocks() may take this body.
 inline bool has_cells(const Body& body) {

@@ -129,8 +129,7 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
   if (own_springs_) return {};
   ASPIC_TRY(own_springs_, make_spring_buffers(context, model,
                                               has_lattices(model) ? IncidentWords::beside_lattices
-                                                                  : IncidentWords::neighbours,
-                                              gl::BufferKind::storage));
+                                                                  : IncidentWords::neighbours));
   return {};
 }
 

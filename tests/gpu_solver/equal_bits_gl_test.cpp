@@ -26,10 +26,7 @@ namespace aspic {
 namespace {
 
 using Paths = std::span<const ForcePath>;
-constexpr ForcePath every_path[] = {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring,
-                                    ForcePath::tiles};
-/// Tiles read neighbours in their own way; what follows in a step is the code of `lattice`.
-constexpr Paths without_tiles = Paths(every_path).first(3);
+constexpr ForcePath every_path[] = {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring};
 
 class EqualBits : public aspic::testing::GlTest {
  protected:
@@ -196,7 +193,7 @@ TEST_F(EqualBitsInFull, FourAtRestUnderEveryIntegratorOnEveryTerrain) {
       settings.terrain[0].restitution = 0.1;
       settings.terrain[0].friction = 1.2;
       settings.cubes[0].position = shape.drop;
-      expect_equal(settings, 2500, {64}, without_tiles);
+      expect_equal(settings, 2500, {64}, every_path);
     }
   }
 }
@@ -220,32 +217,16 @@ TEST_F(EqualBitsInFull, FourInACornerOfThreeTerrains) {
       }
       settings.terrain[1].mass = 30.0;
       test::set_down(settings, 0.01);
-      expect_equal(settings, 2500, {64}, without_tiles);
+      expect_equal(settings, 2500, {64}, every_path);
     }
   }
 }
 
-/// Two materials, side by side and in turn, and holes; 31 × 7 × 7 points.
-void add_long_cells(ModelSettings& settings) {
-  settings.materials = {{16.0, 33000.0, 0.4, "jelly"}, {30.0, 9000.0, 0.7, "fat"}};
-  VoxelsSettings& voxels = settings.voxels.emplace_back();
-  voxels.size = 0.3;
-  voxels.position = {0.0, 0.9, -14.0};
-  voxels.velocity = {0.0, -2.0, 0.0};
-  voxels.palette = {{"1", "jelly"}, {"2", "fat"}};
-  const std::string full(30, '1'), turns = "121212111222111112222212222222",
-                                   holes = "11..1111111.1111..111111112222";
-  voxels.layers = {{full, full, full, full, full, full},    {turns, full, full, full, turns, full},
-                   {full, turns, full, full, full, full},   {holes, full, holes, full, full, full},
-                   {turns, turns, full, full, full, turns}, {holes, full, full, full, holes, full}};
-}
-
-/// A cube, one whose springs are listed, another cube, and cloth or a body of cells: every body on a path of
-/// its own, in one run.
-Model mixed(Integrator integrator, double timestep, const std::array<int, 3>& first = {5, 5, 5},
-            bool cells = false) {
+/// A cube, one whose springs are listed, another cube, and cloth: every body on a path of its own, in one
+/// run.
+Model mixed(Integrator integrator, double timestep) {
   ModelSettings settings = test::low_cube(2, integrator, ContactModel::coulomb);
-  settings.cubes[0].particles = first;
+  settings.cubes[0].particles = {5, 5, 5};
   settings.simulation.timestep = timestep;
   for (const int edge : {2, 3}) {
     settings.cubes.push_back(settings.cubes[0]);
@@ -254,12 +235,8 @@ Model mixed(Integrator integrator, double timestep, const std::array<int, 3>& fi
     settings.cubes.back().position.x += 9.0 * (2.5 - edge);
   }
   settings.cubes[2].pinned.names = {"left-top-front"};
-  if (cells) {
-    add_long_cells(settings);
-  } else {
-    settings.cloths.emplace_back();
-    settings.cloths[0].position = {0.0, 0.5, 9.0};
-  }
+  settings.cloths.emplace_back();
+  settings.cloths[0].position = {0.0, 0.5, 9.0};
   test::set_down(settings, 0.01);
   Model model = test::build(settings);
   Body& body = model.bodies[1];
@@ -306,108 +283,6 @@ TEST_F(EqualBitsInFull, BoxesOfAnyEdgesImplicit) {
 
 TEST_F(EqualBits, MixedBodiesImplicit) {
   expect_equal(mixed(Integrator::implicit_euler, 1.0 / 60.0), 10, {64});
-}
-
-/// The device's limits but for blocks of so many bytes, until the end of the scope.
-class SmallBlocks {
- public:
-  SmallBlocks(gl::Context& context, std::uint64_t bytes) : context_(context), own_(context.info().limits) {
-    gl::DeviceLimits limits = own_;
-    limits.storage_block_bytes = bytes;
-    context_.assume_limits(limits);
-  }
-  ~SmallBlocks() { context_.assume_limits(own_); }
-
- private:
-  gl::Context& context_;
-  gl::DeviceLimits own_;
-};
-
-/// The canary's operands take larger blocks.
-GpuOptions options_for_small_blocks(gl::Context& context) {
-  GpuOptions options;
-  auto arithmetic = gl::choose_arithmetic(context, gl::ShaderLibrary());
-  EXPECT_TRUE(arithmetic.ok());
-  options.arithmetic = std::move(*arithmetic);
-  return options;
-}
-
-/// A path and a method whose arrays do not fit into a block of so many bytes.
-struct Windowed {
-  ForcePath path;
-  Integrator integrator;
-  std::uint64_t block;
-  std::array<int, 3> first = {12, 12, 12};   ///< particles of the first body
-  bool cells = false;                        ///< a long body of cells is the last
-  std::vector<std::uint32_t> runs = {4, 1};  ///< GpuOptions::lattice_run, of explicit methods on lattice
-};
-
-/// Passes go by windows, and see of every array what they need, no more and no less.
-void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed) {
-  const auto& [path, integrator, block, first, cells, runs] = windowed;
-  const bool solved = integrator == Integrator::implicit_euler;
-  Model model = mixed(integrator, solved ? 1.0 / 60.0 : 0.001, first, cells);
-  model.contact.bodies = false;  // which needs complete states
-  const std::uint64_t steps = solved ? 5 : 20;
-  auto reference = std::move(make_reference_solver(model, Precision::single)).value();
-  ASSERT_FALSE((*reference->advance(steps)).divergence.has_value());
-  GpuOptions options = options_for_small_blocks(context);
-  options.force_path = path;
-  std::array<std::uint64_t, 2> dispatches = {};
-  for (const bool small : {false, true}) {
-    std::optional<SmallBlocks> blocks;
-    if (small) blocks.emplace(context, block);
-    for (const std::uint32_t run : runs) {
-      if (run != runs.front() && (path != ForcePath::lattice || solved)) continue;
-      options.lattice_run = run;
-      auto solver = make_gpu_solver(context, model, options);
-      ASSERT_TRUE(solver.ok()) << solver.error().message();
-      EXPECT_EQ((*solver)->bytes(), gpu_bytes(model, path, small ? block : UINT64_MAX));
-      const std::uint64_t before = context.dispatches();
-      ASSERT_FALSE((*(*solver)->advance(1)).divergence.has_value());
-      dispatches[small] = context.dispatches() - before;
-      ASSERT_FALSE((*(*solver)->advance(steps - 1)).divergence.has_value());
-      EXPECT_EQ(*(*solver)->state(), *reference->state())
-          << name_of(integrator) << ", " << name_of(path) << ", " << (small ? "windows" : "whole");
-    }
-  }
-  EXPECT_GT(dispatches[1], dispatches[0]) << name_of(integrator) << ", " << name_of(path);
-}
-
-// Each path. The ground prescribes part of the implicit step, which neighbours in other windows need, too.
-TEST_F(EqualBits, ScenesLargerThanABlock) {
-  for (const Windowed& windowed :
-       {Windowed{ForcePath::lattice, Integrator::explicit_euler, 48u << 10, {40, 6, 9}},
-        {ForcePath::lattice, Integrator::symplectic_euler, 48u << 10, {5, 5, 5}, true, {1}},
-        {ForcePath::lattice, Integrator::implicit_euler, 48u << 10},
-        {ForcePath::tiles, Integrator::runge_kutta_4, 52u << 10, {40, 6, 9}},
-        {ForcePath::gather, Integrator::midpoint, 64u << 10},
-        {ForcePath::per_spring, Integrator::explicit_euler, 192u << 10}})
-    expect_equal_bits_in_windows(context(), windowed);
-}
-
-TEST_F(EqualBitsInFull, ScenesLargerThanABlock) {
-  for (const Windowed& windowed :
-       {Windowed{ForcePath::lattice, Integrator::runge_kutta_4, 48u << 10},
-        {ForcePath::lattice, Integrator::midpoint, 48u << 10, {5, 5, 5}, true, {4}},
-        {ForcePath::gather, Integrator::explicit_euler, 48u << 10},
-        {ForcePath::gather, Integrator::implicit_euler, 48u << 10},
-        {ForcePath::per_spring, Integrator::runge_kutta_4, 160u << 10}})
-    expect_equal_bits_in_windows(context(), windowed);
-}
-
-// A few particles with springs to everywhere need the whole state at once.
-TEST_F(EqualBits, SpringsAcrossMoreThanABlockAreRefused) {
-  constexpr std::uint32_t count = 4096;
-  Model model = test::particles(std::vector<Vec3>(count), std::vector<Vec3>(count));
-  model.spring_classes.push_back({SpringType::structural, 300.0, 2.0, 0.02, false});
-  model.listed_springs.push_back({3, count - 2, 0});
-  const GpuOptions options = options_for_small_blocks(context());
-  const SmallBlocks small(context(), 64u << 10);
-  const auto refused = make_gpu_solver(context(), model, options);
-  ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
-  EXPECT_NE(refused.error().message().find("springs join particles so far apart"), std::string::npos);
 }
 
 /// Implicit Euler with 60 steps a second; what contact does to it shows after a few.

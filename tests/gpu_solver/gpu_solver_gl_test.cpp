@@ -67,8 +67,7 @@ TEST_F(GpuSolverTest, DivergenceIsFoundOnTheDeviceWhereTheReferenceFindsIt) {
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
     const auto expected = reference->advance(100000)->divergence;
     ASSERT_TRUE(expected.has_value());
-    for (const ForcePath path :
-         {ForcePath::lattice, ForcePath::tiles, ForcePath::gather, ForcePath::per_spring}) {
+    for (const ForcePath path : {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring}) {
       auto solver = solver_for(model, path);
       const auto found = solver->advance(100000)->divergence;
       ASSERT_TRUE(found.has_value());
@@ -163,8 +162,7 @@ TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
   settings.cubes[0].shear.stiffness = 900.0;
   settings.simulation.timestep = 0.0005;
   Model stiffer = test::build(settings);
-  for (const ForcePath path :
-       {ForcePath::lattice, ForcePath::tiles, ForcePath::gather, ForcePath::per_spring}) {
+  for (const ForcePath path : {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring}) {
     auto old = solver_for(model, path);
     const std::uint64_t held = context().bytes_held();
     GpuOptions options;
@@ -209,8 +207,7 @@ TEST_F(GpuSolverTest, SharedKernelsKeepSolversApart) {
   settings.balls.push_back({0.5, 2.0, {0.2, 6.0, 0.1}, {0.0, -9.0, 0.0}, {}});
   for (const Integrator integrator :
        {Integrator::runge_kutta_4, Integrator::symplectic_euler, Integrator::implicit_euler}) {
-    for (const ForcePath path :
-         {ForcePath::lattice, ForcePath::tiles, ForcePath::gather, ForcePath::per_spring}) {
+    for (const ForcePath path : {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring}) {
       if (!works_with(path, integrator)) continue;  // refused by name
       settings.simulation.integrator = integrator;
       const Model model = test::build(settings);

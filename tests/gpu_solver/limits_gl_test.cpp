@@ -88,7 +88,7 @@ TEST_F(LimitsGl, TheLargestCubeOfEachPathIsForetold) {
   for (const Integrator integrator : {Integrator::explicit_euler, Integrator::implicit_euler}) {
     for (const CubeCapacity& largest : largest_cubes(limits, std::nullopt, integrator)) {
       const auto path = std::ranges::find(force_paths(), largest.force_path, &ForcePathRow::name)->path;
-      EXPECT_EQ(largest.limit, CapacityLimit::buffer) << largest.force_path;
+      EXPECT_EQ(largest.limit, CapacityLimit::block) << largest.force_path;
       for (const std::uint32_t more : {0u, 2u}) {
         ModelSettings cube = test::cube_on_plane(static_cast<int>(largest.particles_per_edge + more));
         cube.simulation.integrator = integrator;
@@ -112,20 +112,19 @@ TEST(LargestCubes, FollowBuffersBlocksMemoryAndWords) {
     return CubeCapacity{};
   };
   const auto cube = [](std::uint64_t n) { return n * n * n; };
-  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "lattice").particles_per_edge, 512u);  // 32 n³ ≤ 2³²
-  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "gather").particles_per_edge, 322u);   // 128 n³
-  EXPECT_EQ(of(std::nullopt, Integrator::implicit_euler, "lattice").particles_per_edge, 290u);  // 176 n³
+  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "lattice").particles_per_edge, 161u);  // 32 n³ ≤ 2²⁷
+  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "gather").particles_per_edge, 101u);   // 128 n³
+  EXPECT_EQ(of(std::nullopt, Integrator::implicit_euler, "lattice").particles_per_edge, 91u);  // 176 n³
   EXPECT_EQ(of(std::nullopt, Integrator::implicit_euler, "per-spring").particles_per_edge,
             0u);  // has no such path
   const CubeCapacity small = of(100 * cube(50), Integrator::explicit_euler, "lattice");
   EXPECT_EQ(small.limit, CapacityLimit::memory);
   EXPECT_EQ(small.particles_per_edge, 50u);  // 96 n³
-  limits.buffer_bytes = std::uint64_t{1} << 62;
+  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "lattice").limit, CapacityLimit::block);
+  limits.buffer_bytes = 64u << 20;
+  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "lattice").limit, CapacityLimit::buffer);
+  limits.buffer_bytes = limits.storage_block_bytes = std::uint64_t{1} << 62;
   EXPECT_EQ(of(std::nullopt, Integrator::explicit_euler, "gather").limit, CapacityLimit::words);
-  limits.storage_block_bytes = 16u << 20;
-  const CubeCapacity planes = of(std::nullopt, Integrator::explicit_euler, "lattice");
-  EXPECT_EQ(planes.limit, CapacityLimit::block);
-  EXPECT_EQ(planes.particles_per_edge, 361u);  // about four planes: 32 (4 n² + 4 n + 528) ≤ 2²⁴
 }
 
 // Particles far apart, a few of them joined: more groups than the 65,535 that one dimension surely takes.

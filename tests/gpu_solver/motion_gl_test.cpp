@@ -50,8 +50,7 @@ TEST_F(MovingTerrain, HasTheReferencesBitsUnderEveryIntegrator) {
       const Model model = test::build(shaken(integrator, contact));
       const std::uint64_t steps = solved ? 60 : 700;
       const State expected = reference_after(model, steps);
-      for (const ForcePath path :
-           {ForcePath::lattice, ForcePath::tiles, ForcePath::gather, ForcePath::per_spring}) {
+      for (const ForcePath path : {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring}) {
         if (!works_with(path, integrator)) continue;  // refused by name
         const auto gpu = solver(model, path);
         ASSERT_FALSE((*gpu->advance(steps)).divergence.has_value());

@@ -77,8 +77,7 @@ void PullOnTheDevice::expect_the_references_bits(bool every_path) {
       for (std::size_t i = 0; i < expected.position.size(); ++i)
         moved = std::max(moved, length(expected.position[i] - untouched->state()->position[i]));
       ASSERT_GT(moved, 0.1);
-      std::vector<ForcePath> paths = {ForcePath::lattice, ForcePath::tiles, ForcePath::gather,
-                                      ForcePath::per_spring};
+      std::vector<ForcePath> paths = {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring};
       std::erase_if(paths, [&](ForcePath path) { return !works_with(path, integrator); });  // refused by name
       if (!every_path) paths = {paths[turn++ % paths.size()]};
       for (const ForcePath path : paths) {

@@ -20,7 +20,6 @@
 namespace aspic {
 namespace {
 
-constexpr std::uint64_t any_bytes = UINT64_MAX;
 constexpr std::size_t any_bodies = 64;
 
 /// By particle: neighbours in the order in which a kernel meets them, with the class of each spring.
@@ -92,7 +91,7 @@ Neighbours listed_neighbours(const Model& model, const CellBlocks& cells) {
 }
 
 void expect_all_springs(const Model& model, std::size_t bodies) {
-  const CellBlocks cells = cell_blocks(model, any_bodies, any_bytes);
+  const CellBlocks cells = cell_blocks(model, any_bodies);
   ASSERT_EQ(cells.bodies.size(), bodies);
   const Neighbours found = neighbours_of(model, cells);
   EXPECT_EQ(found, listed_neighbours(model, cells));
@@ -132,33 +131,31 @@ TEST(CellBlocks, HaveTheSpringsOfTheListInItsOrder) {
   expect_all_springs(test::build(test::actuated(Integrator::midpoint, ContactModel::coulomb)), 2);
   const Model many = test::build(test::cells_of_many_classes(Integrator::midpoint));
   expect_all_springs(many, 1);
-  EXPECT_EQ(cell_blocks(many, any_bodies, any_bytes).class_width, 16u);
+  EXPECT_EQ(cell_blocks(many, any_bodies).class_width, 16u);
   const auto one_material =
       test::with_cells(test::cube_on_plane(2), test::lattice_of("xxx,x.x,xxx;xxx,...,x.."));
   expect_all_springs(one_material, 1);
-  EXPECT_EQ(cell_blocks(one_material, any_bodies, any_bytes).mixed_blocks(), 0u);
+  EXPECT_EQ(cell_blocks(one_material, any_bodies).mixed_blocks(), 0u);
 }
 
 TEST(CellBlocks, BodiesOfOneShapeShareTheirPatterns) {
   ModelSettings settings = ball(9);
-  const CellBlocks one = cell_blocks(test::build(settings), any_bodies, any_bytes);
+  const CellBlocks one = cell_blocks(test::build(settings), any_bodies);
   settings.voxels.push_back(settings.voxels[0]);
   settings.voxels.back().position.x += 20.0;
   const Model model = test::build(settings);
   expect_all_springs(model, 2);
-  const CellBlocks two = cell_blocks(model, any_bodies, any_bytes);
+  const CellBlocks two = cell_blocks(model, any_bodies);
   EXPECT_EQ(two.patterns, one.patterns);
   EXPECT_EQ(two.halves, one.halves);
   EXPECT_EQ(two.map.size(), 2 * one.map.size());
-  EXPECT_EQ(cell_blocks(model, 1, any_bytes).bodies.size(), 1u);
-  EXPECT_EQ(cell_blocks(model, any_bodies, sizeof(std::uint32_t) * one.words() + 1).bodies.size(), 1u);
-  EXPECT_FALSE(cell_blocks(model, any_bodies, sizeof(std::uint32_t) * one.words()).any());
+  EXPECT_EQ(cell_blocks(model, 1).bodies.size(), 1u);
 }
 
 // docs/voxels.md
 TEST(CellBlocks, TakeLessThanEightBytesAParticle) {
   const Model model = test::build(ball(36));
-  const CellBlocks cells = cell_blocks(model, any_bodies, any_bytes);
+  const CellBlocks cells = cell_blocks(model, any_bodies);
   EXPECT_EQ(cells.particles, model.particle_count());
   EXPECT_EQ(cells.class_width, 8u);
   EXPECT_LT(sizeof(std::uint32_t) * cells.words(), 8u * model.particle_count());
@@ -169,7 +166,7 @@ TEST(CellBlocks, TakeLessThanEightBytesAParticle) {
 TEST(CellBlocks, BodiesThatTakeLessAsListsStayThem) {
   std::vector<std::vector<std::string>> layers(40, std::vector<std::string>(40, std::string(40, '.')));
   layers.front().front().front() = layers.back().back().back() = '1';
-  EXPECT_FALSE(cell_blocks(test::build(cells_of(std::move(layers))), any_bodies, any_bytes).any());
+  EXPECT_FALSE(cell_blocks(test::build(cells_of(std::move(layers))), any_bodies).any());
 }
 
 TEST(CellBlocks, AreOfLatticesAlone) {
@@ -177,10 +174,10 @@ TEST(CellBlocks, AreOfLatticesAlone) {
   Model joined = model;
   // A spring that leads nowhere in the lattice.
   joined.listed_springs.front().b = joined.particle_count() - 1;
-  EXPECT_FALSE(cell_blocks(joined, any_bodies, any_bytes).any());
+  EXPECT_FALSE(cell_blocks(joined, any_bodies).any());
   model.bodies[0].lattice.reset();
-  EXPECT_FALSE(cell_blocks(model, any_bodies, any_bytes).any());
-  EXPECT_FALSE(cell_blocks(test::build(test::cube_on_plane(4)), any_bodies, any_bytes).any());
+  EXPECT_FALSE(cell_blocks(model, any_bodies).any());
+  EXPECT_FALSE(cell_blocks(test::build(test::cube_on_plane(4)), any_bodies).any());
 }
 
 }  // namespace
