@@ -31,8 +31,8 @@ class Buffer {
 
   /// Allocates `bytes` of undefined content; 0 is legal (a token allocation is made, so that it can be
   /// bound). `name` appears in errors and, on debug contexts, in the driver's messages. Error
-  /// (scene_rejected): more than the device's block size, or the device has no memory left; the sentence gives the
-  /// figures. Error (no_device): the context is lost. No GL error is left behind.
+  /// (scene_rejected): more than the device's block size, or the device has no memory left; the sentence
+  /// gives the figures. Error (no_device): the context is lost. No GL error is left behind.
   static Result<Buffer> create(Context& context, std::string name, std::uint64_t bytes,
                                BufferKind kind = BufferKind::storage);
 

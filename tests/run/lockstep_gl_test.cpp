@@ -27,8 +27,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr std::uint64_t steps = 40;
-constexpr const char* variants[] = {"gpu:lattice", "gpu:gather", "gpu:per-spring",
-                                    "gpu:fast"};
+constexpr const char* variants[] = {"gpu:lattice", "gpu:gather", "gpu:per-spring", "gpu:fast"};
 
 /// A cube that meets the plane within these steps.
 ModelSettings cube(int edge, double height = 2.05) {
