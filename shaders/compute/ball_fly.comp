@@ -1,6 +1,8 @@
 // Balls, first of a step: flight by all stages of the integrator at once, under gravity and pulls (backward
 // Euler of free flight is symplectic Euler, whose stages are in the table then), and the terrain's response. Start
 // slot to the slot between.
+// NVIDIA's compiler takes twice as long otherwise. Others ignore it.
+#pragma optionNV(unroll none)
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/ball_blocks.glsl"

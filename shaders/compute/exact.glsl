@@ -4,6 +4,8 @@
 //   ASPIC_FUSED_FMA                        fma rounds once, so that it gives exact residuals; else double does
 //   ASPIC_QUICK                            Newton steps of the quick form, 1 or 2; absent: the slow form
 // Both forms take operands in the middle of the range. Of others, mantissas are computed with and exponents added as integers.
+// Only the spring law, which is most of the work, tests for that range: elsewhere the second path would double the code, and
+// NVIDIA's compiler takes a millisecond for each operation.
 //   quick  residuals by fma alone (Markstein, IBM J. Res. Dev. 34, 1990). Two steps are exact for every operand from a start
 //          within 2 units in the last place; one step is on devices for which the canary has found no exception.
 //   slow   a Newton step, then of the value and its neighbour on the exact value's side the one with the smaller residual
@@ -133,30 +135,14 @@ float any_sqrt(float x) {
 
 float exact_div(float a, float b) {
 #ifdef ASPIC_CORRECT_DIV
-#ifdef ASPIC_QUICK
-  if (in_middle(size_of(a)) && in_middle(size_of(b))) return middle_div(a, b);
-#endif
   return any_div(a, b);
 #else
   return device_div(a, b);
 #endif
 }
 
-// 1/b
-float exact_rcp(float b) {
-#if defined(ASPIC_CORRECT_DIV) && defined(ASPIC_QUICK)
-  if (in_middle(size_of(b))) return middle_rcp(b);
-  return any_div(1.0, b);
-#else
-  return exact_div(1.0, b);
-#endif
-}
-
 float exact_sqrt(float x) {
 #ifdef ASPIC_CORRECT_SQRT
-#ifdef ASPIC_QUICK
-  if (in_middle(floatBitsToUint(x))) return middle_sqrt(x);
-#endif
   return any_sqrt(x);
 #else
   return device_sqrt(x);
@@ -174,6 +160,6 @@ vec2 exact_sqrt_rcp(float x) {
   return vec2(root, any_div(1.0, root));
 #else
   precise float root = exact_sqrt(x);
-  return vec2(root, exact_rcp(root));
+  return vec2(root, exact_div(1.0, root));
 #endif
 }

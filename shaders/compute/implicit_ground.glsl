@@ -67,6 +67,12 @@ bool crosses(uint t, vec3 x, Reaction r) {
 // P of a particle of mass m at x, with free velocity v.
 Reaction react(vec3 x, float m, vec3 v) {
   Reaction reaction = no_reaction(v);
+#ifdef ASPIC_ONE_TERRAIN
+  if (crosses(0u, x, reaction)) {
+    reaction.held[reaction.count++] = 0u;
+    if (!on_one(x, m, v, reaction)) reaction = no_reaction(v);
+  }
+#else
   for (uint round = 0u; round < 2u; ++round) {
     for (uint t = 0u; t < terrain_count; ++t) {
       if (holds(reaction, t)) continue;
@@ -76,6 +82,7 @@ Reaction react(vec3 x, float m, vec3 v) {
     }
     if (reaction.count == 0u || terrain_count == 1u) break;
   }
+#endif
   return reaction;
 }
 

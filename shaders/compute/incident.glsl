@@ -64,7 +64,9 @@ Walk walk(uint i) {
   Lattice lattice = lattices[l];
   uvec3 size = size_of(lattice);
   uint steps = steps_from(place_in(size, i - lattice.first_particle), size);
-  return Walk(0u, LATTICE_DIRECTIONS, 0u, i, steps, int(size.y * size.z), int(size.z), lattice.first_class);
+  // A bound that compilers cannot see: with a constant, NVIDIA's unrolls the walk and takes seconds.
+  uint end = lattice_count == 0u ? 0u : uint(LATTICE_DIRECTIONS);
+  return Walk(0u, end, 0u, i, steps, int(size.y * size.z), int(size.z), lattice.first_class);
 }
 
 bool link_at(Walk w, out Link link) {

@@ -30,25 +30,27 @@ void add(Looker p, uint record, uint k, vec4 gap, vec3 at) {
   records[record] = TouchRecord(normal, vec4(0.0, 0.0, 0.0, rest), uvec4(t.xyz, 0u), vec4(share, 0.0), vec4(0.0), vec4(0.0));
 }
 
-// How many contacts there are.
+// How many contacts there are: the first of all sides, then of a closed body those of the other sides in front of which the
+// point is.
 uint touch(Looker p, uint first) {
-  uint count = 0u, fronts = 0u, none = 0u;
-  uint nearest = nearest_of(p, ANY_SIDE, fronts);
-  if (nearest == NO_TRIANGLE) return 0u;
+  uint count = 0u, fronts = 0u, first_side = ANY_SIDE;
   bool closed = (p.of.flags & TOUCH_CLOSED) != 0u;
-  uint first_side = triangle_of(p, nearest).w;
-  Sight seen;
-  look(p, nearest, ANY_SIDE, seen);
-  precise vec4 gap;
   precise float depth = back_of(p.of) < p.of.reach ? p.of.eased_depth : p.of.depth;
-  if (closed ? closed_gap(seen, p.of.sight, depth, gap) : open_gap(seen, p.of.sight, gap))
-    add(p, first + count++, nearest, gap, seen.place);
-  if (!closed) return count;
-  for (uint side = 0u; side < TOUCH_SIDES; ++side) {
-    if (side == first_side || (fronts >> side & 1u) == 0u) continue;
-    uint k = nearest_of(p, side, none);
-    look(p, k, side, seen);
-    if (straight_in_front(seen, p.of.sight) && closed_gap(seen, p.of.sight, depth, gap))
+  uint rounds = closed ? TOUCH_SIDES + 1u : 1u;
+  for (uint round = 0u; round < rounds; ++round) {
+    uint side = round == 0u ? ANY_SIDE : round - 1u;
+    if (round > 0u && (side == first_side || (fronts >> side & 1u) == 0u)) continue;
+    uint in_front = 0u;
+    Sight seen;
+    uint k = nearest_of(p, side, in_front, seen);
+    if (k == NO_TRIANGLE) return count;
+    if (round == 0u) {
+      fronts = in_front;
+      first_side = triangle_of(p, k).w;
+    }
+    if (round > 0u && !straight_in_front(seen, p.of.sight)) continue;
+    precise vec4 gap;
+    if (closed ? closed_gap(seen, p.of.sight, depth, gap) : open_gap(seen, p.of.sight, gap))
       add(p, first + count++, k, gap, seen.place);
   }
   return count;

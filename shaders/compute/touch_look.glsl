@@ -59,11 +59,12 @@ bool look(Looker p, uint k, uint side, out Sight seen) {
   return true;
 }
 
-// Of the triangles of a side the nearest, of those as near the one straightest in front, of equals the nearest. `fronts` gets a bit for each side
-// straight in front of the point.
-uint nearest_of(Looker p, uint side, inout uint fronts) {
+// Of the triangles of a side the nearest, of those as near the one straightest in front, of equals the nearest, and what
+// the point sees of it. `fronts` gets a bit for each side straight in front of the point.
+uint nearest_of(Looker p, uint side, inout uint fronts, out Sight best_seen) {
   precise float least = NOTHING_NEAR;
   Sight seen;
+  best_seen = Sight(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0);
   for (uint k = 0u; k < p.of.near_count; ++k) {
     if (!look(p, k, side, seen)) continue;
     if (seen.L < least) least = seen.L;
@@ -77,6 +78,7 @@ uint nearest_of(Looker p, uint side, inout uint fronts) {
     precise float share = straightness(seen);
     if (share > straight || (share == straight && seen.L < nearest)) {
       best = k;
+      best_seen = seen;
       straight = share;
       nearest = seen.L;
     }

@@ -44,10 +44,7 @@ std::string each_link(int run) {
 }  // namespace
 
 std::string lattice_links() {
-  std::string text;
-  for (const int run : {1, 4})
-    text += fmt::format("#{} ASPIC_LATTICE_RUN == {}\n{}", run == 1 ? "if" : "elif", run, each_link(run));
-  return text + "#endif\n";
+  return each_link(4);
 }
 
 }  // namespace aspic::gl

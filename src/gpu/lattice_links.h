@@ -4,7 +4,7 @@
 
 namespace aspic::gl {
 
-/// compute/lattice_links.glsl: EACH_LINK for ASPIC_LATTICE_RUN 1 and 4, from lattice_directions().
+/// compute/lattice_links.glsl: EACH_LINK for ASPIC_LATTICE_RUN 4, from lattice_directions().
 std::string lattice_links();
 
 }  // namespace aspic::gl

@@ -145,7 +145,8 @@ class Preprocessor {
     } else if (word == "undef" && !rest.empty() && branches_ == Branches::taken) {
       macros_.erase(rest.front().text);
     } else if (word == "extension" || word == "pragma" || word == "line") {
-      offend(line.front(), "directive");
+      // How NVIDIA's compiler unrolls loops: no effect on results, and others ignore it.
+      if (!raw.ends_with("pragma optionNV(unroll none)")) offend(line.front(), "directive");
     }
   }
 

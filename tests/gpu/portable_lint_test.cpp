@@ -87,6 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "4 reserved-name x__"},
         Snippet{"#extension GL_NV_gpu_shader5 : enable\n#pragma optimize(off)\n#line 3",
                 "2 directive extension; 3 directive pragma; 4 directive line"},
+        Snippet{"#pragma optionNV(unroll none)\n#pragma optionNV(fastmath on)", "3 directive pragma"},
         Snippet{
             "#ifdef MISSING\n#extension all : warn\nfloat x__;\n#endif\n// take(items[3]) __\n/* __\n__ */",
             ""}));
