@@ -120,7 +120,7 @@ def model_arrays(scene: Scene) -> dict[str, Any]:
 
     from ._simulation import Simulation
 
-    sim = Simulation(scene, "reference")
+    sim = Simulation._quiet(scene, "reference")
     core, springs, balls = sim._core, sim.springs, sim.balls
     pinned = np.zeros(len(sim.masses), np.uint8)
     pinned[core.pinned()] = 1
