@@ -73,6 +73,8 @@ DeviceState DeviceSolver::device_state() const {
 
 void DeviceSolver::take(const ConstStateView& state, std::uint64_t step) {
   const std::vector<layout::Particle> particles = packed_particles(*model_, state);
+  // Where the steps before ended early, no pass has handed these buffers to an upload.
+  gl::barrier(gl::ReadBy::copy);
   states_[0].upload_items(particles);
   balls_.load(state, step);
   touch_.forget();
