@@ -1,4 +1,5 @@
 // aspic: parses the command line and runs the command; errors go to stderr, their codes are the exit codes.
+#include <string_view>
 #include <variant>
 
 #include "cli/commands.h"
@@ -16,6 +17,10 @@ aspic::Status run(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   return aspic::run_program([&] {
+    if (argc > 1 && std::string_view(argv[1]) == "--complete") {
+      aspic::cli::complete({argv + 2, argv + argc});
+      return 0;
+    }
     const aspic::Status done = run(argc, argv);
     if (done) return 0;
     if (done.error().code != aspic::closed_pipe)

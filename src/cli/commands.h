@@ -46,4 +46,8 @@ Status execute(const SceneImportOptions& options);
 /// Never fails for want of a GPU: says so instead.
 Status execute(const InfoOptions& options);
 
+/// Prints what may stand in place of the last of a command line's words, of which the first is the program: a
+/// word, a tabulator and its help in each line, or :file, :directory or :toml for names of files.
+void complete(std::vector<std::string> words);
+
 }  // namespace aspic::cli
