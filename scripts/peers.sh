@@ -21,6 +21,6 @@ fi
 # CMake looks for Bullet when it configures.
 [ -f "$aspic_build_dir/build.ninja" ] && ! grep -q '^bullet_FOUND:INTERNAL=1$' "$aspic_build_dir/CMakeCache.txt" &&
   touch "$aspic_root/bench/CMakeLists.txt"
-aspic_build BENCH aspic peer_textbook peer_bullet
+aspic_build BENCH aspic_peers peer_textbook peer_bullet
 [ $# -gt 0 ] || set -- --backend cpu,reference --size 10,20,40
-exec "$aspic_build_dir/aspic" bench --peers "$@"
+exec "$aspic_build_dir/aspic-peers" "$@"

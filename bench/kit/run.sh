@@ -135,8 +135,10 @@ bench() {  # bench NAME BACKEND size …: as many simulated milliseconds, which 
   shift 2
   for size in "$@"; do
     case $size in 20) steps=4000 ;; 64 | 100) steps=1000 ;; 128) steps=500 ;; 200) steps=200 ;; *) steps=100 ;; esac
-    within "bench $name, $size" 60 "bench/$name-$(printf %03d "$size").json" "$aspic" bench --backend "$backend" --size "$size" \
-      --integrator explicit-euler --duration "$((steps / 1000)).$(printf %03d $((steps % 1000)))" --repeats 3 --json ${peer:+--peer "$peer"} ||
+    local program=("$aspic" bench)
+    [ -z "${peer-}" ] || program=("$aspic-peers" --peer "$peer")
+    within "bench $name, $size" 60 "bench/$name-$(printf %03d "$size").json" "${program[@]}" --backend "$backend" --size "$size" \
+      --integrator explicit-euler --duration "$((steps / 1000)).$(printf %03d $((steps % 1000)))" --repeats 3 --json ||
       left_out "bench $name, $size" "exit code $?"
   done
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What `aspic bench` is made of: who is measured, what was measured, how it is shown.
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,7 +24,7 @@ struct Took {
   double seconds = 0.0, processor_seconds = 0.0;
 };
 
-/// Whether a peer moves as it should (docs/performance.md, "The peers").
+/// Whether a peer (bench/peers) moves as it should.
 struct PeerCheck {
   bool passed = false;
   std::uint64_t steps = 0;
@@ -117,31 +118,17 @@ Result<std::uint64_t> steps_for(Contestant& contestant, double seconds, std::uin
 /// them longer.
 std::string steps_warning(const Measurement& m, std::string_view option);
 
-/// A program of bench/peers/peers.txt.
-struct PeerProgram {
-  std::string name;
-  int largest = 0;  ///< particles per edge
-  std::vector<std::string> words;
+/// Who is measured next to the backends of a case, and how many steps all of them may make.
+struct Guests {
+  std::vector<std::unique_ptr<Contestant>> contestants;
+  std::uint64_t most_steps = aspic::most_steps;
 };
+using InviteGuests = std::function<Result<Guests>(const ModelSettings& settings, const Model& model,
+                                                  const Measurement& like, const InterruptGuard& interrupt)>;
 
-/// The peers of those names, all for none. Error (usage): there is no such peer, or this aspic was not built
-/// in a checkout.
-Result<std::vector<PeerProgram>> find_peers(const std::vector<std::string>& names);
-
-/// The lattice that peers simulate too. Error (usage): the scene is something else than a cube of equal
-/// springs in free fall with explicit Euler; the sentence says what.
-struct PeerLattice {
-  double edge = 0.0, height = 0.0;  ///< of the cube and of its centre [m]
-  double mass = 0.0, stiffness = 0.0, damping = 0.0, timestep = 0.0, gravity = 0.0;
-  std::uint64_t most_steps = 0;  ///< before anything touches the ground
-};
-Result<PeerLattice> peer_lattice(const ModelSettings& settings, const Model& model);
-
-/// Starts a peer, has it checked against the reference, and makes it ready with `size` particles per edge.
-/// One that fails its check never runs. Error (io): it cannot be started or does not answer.
-Result<std::unique_ptr<Contestant>> make_peer_contestant(const PeerProgram& program,
-                                                         const ModelSettings& settings,
-                                                         const PeerLattice& lattice, const Measurement& like);
+/// `aspic bench`, with guests where there is something that invites them. Errors: of model, time step,
+/// backends and guests.
+Status execute_bench(const BenchOptions& options, const InviteGuests& invite = nullptr);
 
 /// What was measured, as a table and as JSON.
 struct BenchReport {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "analysis/stability.h"
 #include "aspic/scene.h"
@@ -33,20 +34,14 @@ class Case {
   Case(const BenchOptions& options, const InterruptGuard& interrupt)
       : options_(options), interrupt_(interrupt) {}
 
-  /// Makes everyone ready. Errors: of model, time step, backends and peers.
-  Status prepare(ModelSettings settings, const std::vector<PeerProgram>& peers) {
+  /// Makes everyone ready. Errors: of model, time step, backends and guests.
+  Status prepare(ModelSettings settings, const InviteGuests& invite) {
     ASPIC_TRY(auto built, build_model(settings));
     ASPIC_TRY(built.simulation.timestep, chosen_timestep(options_, built));
     settings.simulation = simulation_ = built.simulation;
     const SharedModel model = shared(std::move(built));
     const int size = settings.cubes.empty() ? 0 : std::ranges::max(settings.cubes.front().lattice());
     const Integrator integrator = settings.simulation.integrator;
-    std::uint64_t most_steps = aspic::most_steps;
-    std::optional<PeerLattice> lattice;
-    if (!peers.empty()) {
-      ASPIC_TRY(lattice, peer_lattice(settings, *model));
-      most_steps = lattice->most_steps;
-    }
     for (const BackendChoice& choice : options_.backends) {
       if (!works_with(choice.force_path, integrator)) {
         print_message(fmt::format("skipped {} on the force path {}, which it does not have.",
@@ -57,24 +52,12 @@ class Case {
       made->m.size = size;
       contestants_.push_back(std::move(made));
     }
-    for (const PeerProgram& peer : peers) {
-      if (interrupt_.interrupted()) return Error{ErrorCode::interrupted, ""};
-      if (contestants_.empty()) break;
-      if (size > peer.largest) {
-        print_message(
-            fmt::format("skipped {} at {} particles per edge: bench/peers/peers.txt says at most {}.",
-                        peer.name, size, peer.largest));
-        continue;
-      }
-      auto made = make_peer_contestant(peer, settings, *lattice, contestants_.front()->m);
-      // One that is not installed leaves the others their row.
-      if (made) {
-        contestants_.push_back(std::move(*made));
-      } else {
-        print_warning(fmt::format("skipped {}: {}", peer.name, worded(made.error(), FrontEnd::command_line)));
-      }
+    Guests guests;
+    if (invite && !contestants_.empty()) {
+      ASPIC_TRY(guests, invite(settings, *model, contestants_.front()->m, interrupt_));
     }
-    for (const auto& contestant : contestants_) ASPIC_CHECK(set_steps(*contestant, most_steps));
+    std::ranges::move(guests.contestants, std::back_inserter(contestants_));
+    for (const auto& contestant : contestants_) ASPIC_CHECK(set_steps(*contestant, guests.most_steps));
     return {};
   }
 
@@ -124,11 +107,7 @@ class Case {
 
 /// All sizes and integrators, into the report.
 Status measure_all(const BenchOptions& options, const Scene& loaded, const InterruptGuard& interrupt,
-                   BenchReport& report) {
-  std::vector<PeerProgram> peers;
-  if (options.with_peers) {
-    ASPIC_TRY(peers, find_peers(options.peers));
-  }
+                   const InviteGuests& invite, BenchReport& report) {
   std::vector<int> sizes = options.sizes;
   if (!sizes.empty() && loaded.model.cubes.empty()) {
     return fail(ErrorCode::usage, "--size sets the particles-per-edge of cubes, but {} has no cube.",
@@ -150,7 +129,7 @@ Status measure_all(const BenchOptions& options, const Scene& loaded, const Inter
     for (const Integrator integrator : integrators) {
       scene.model.simulation.integrator = integrator;
       Case measured(options, interrupt);
-      Status status = measured.prepare(scene.model, peers);
+      Status status = measured.prepare(scene.model, invite);
       if (status) status = measured.measure();
       measured.take_rows(report.rows);
       ASPIC_CHECK(std::move(status));
@@ -189,11 +168,15 @@ std::string steps_warning(const Measurement& m, std::string_view option) {
 }
 
 Status execute(const BenchOptions& options) {
+  return execute_bench(options);
+}
+
+Status execute_bench(const BenchOptions& options, const InviteGuests& invite) {
   const InterruptGuard interrupt;
   ASPIC_TRY(const auto loaded, load_scene(options.scene, options.overrides, by_set));
   if (options.pictures) return execute_pictures(options, loaded, interrupt);
   BenchReport report = {loaded.name, options.repeats, options.warm_up, false, {}};
-  const Status measured = measure_all(options, loaded, interrupt, report);
+  const Status measured = measure_all(options, loaded, interrupt, invite, report);
   report.interrupted = !measured && measured.error().code == ErrorCode::interrupted;
   if (!report.rows.empty() || measured.ok()) {
     compare_rows(report.rows);

@@ -62,8 +62,6 @@ struct BenchOptions {
   std::optional<double> duration;       ///< simulated time of each repeat [s], instead of `seconds`
   int repeats = 5;                      ///< ≥ 1
   int warm_up = 1;                      ///< runs of each case before them, ≥ 0
-  bool with_peers = false;              ///< compare with other programs that simulate the same lattice
-  std::vector<std::string> peers;       ///< their names; empty: all
   std::optional<PictureSize> pictures;  ///< what a picture of this size costs is measured instead
   bool json = false;
 };

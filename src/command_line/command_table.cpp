@@ -195,12 +195,9 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
       ->excludes(seconds);
   add(c, "--repeats", "N", bench.repeats, "runs of each case", repeats);
   add(c, "--warm-up", "N", bench.warm_up, "runs of each case before them, not counted", {0, repeats.most});
-  auto* peers = c->add_flag("--peers", bench.with_peers,
-                            "next to other programs with the same cube, from a source checkout");
-  auto* peer = add(c, "--peer", "NAME", bench.peers, "only this one of them, e.g. textbook")->delimiter(',');
   add(c, "--pictures", "WxH", raw.bench_pictures,
       "what drawing the scene costs instead, by pass, 60 pictures a simulated second")
-      ->excludes(peers, peer, seconds, sizes, integrators, timestep);
+      ->excludes(seconds, sizes, integrators, timestep);
   add_overrides(c, bench.overrides);
   add_json(c, bench.json);
   return c;

@@ -77,10 +77,9 @@ inline constexpr const char* compare_examples = R"(Examples:
 inline constexpr const char* bench_examples = R"(Examples:
   aspic bench --backend cpu,reference,gpu:gather,gpu:per-spring --size 10,20
   aspic bench large-cube --seconds 10 --json
-  aspic bench --backend cpu --size 20 --peers
   aspic bench --integrator explicit-euler --integrator implicit-euler --timestep largest --duration 1
 
---backend, --force-path, --size, --integrator and --peer take lists and can be repeated; every combination is
+--backend, --force-path, --size and --integrator take lists and can be repeated; every combination is
 measured. Each case runs --repeats times over the same steps from the scene's start, all of a size in turn; the median
 counts, the spread is (slowest - fastest) / median. Spring evaluations are springs x force evaluations x steps; with
 implicit-euler an application of the Jacobian counts as one. A software rasteriser's figures are no GPU's: the renderer is named.)";

@@ -244,7 +244,6 @@ Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
     return usage("--duration must be a number above 0.");
   }
   if (bench.repeats < 1) return usage("--repeats must be 1 or more.");
-  bench.with_peers = bench.with_peers || !bench.peers.empty();
   if (!raw.bench_pictures.empty()) {
     ASPIC_TRY(bench.pictures, parse_size(raw.bench_pictures, "--pictures"));
   }

@@ -42,7 +42,6 @@ struct Exclusion {
 };
 constexpr Exclusion exclusions[] = {
     {"aspic view", "opens a window and stays there"},
-    {"--peer", "needs other programs, which scripts/peers.sh installs"},
     {"docs/performance.md", "measures, for minutes to hours"},
     {"--thorough", "measures for minutes"},
     {"GALLIUM_DRIVER=zink", "needs a second driver, which the tests of zink ask for"},

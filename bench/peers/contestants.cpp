@@ -1,4 +1,5 @@
-// Other programs that simulate the same lattice, as contestants of `aspic bench`: bench/peers/README.md.
+#include "peers/contestants.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,12 +10,14 @@
 #include <thread>
 
 #include "base/files.h"
-#include "cli/bench.h"
 #include "io/child_process.h"
 #include "model/integrator.h"
 #include "model/terrain.h"
 
-namespace aspic::cli {
+namespace aspic::peers {
+
+using cli::Json, cli::PeerCheck, cli::Took;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -318,4 +321,4 @@ Result<std::unique_ptr<Contestant>> make_peer_contestant(const PeerProgram& prog
       std::make_unique<PeerContestant>(std::move(m), std::move(peer), lattice));
 }
 
-}  // namespace aspic::cli
+}  // namespace aspic::peers

@@ -22,14 +22,14 @@ class Peers : public testing::Test {
   test::Finished run(const std::string& table, std::vector<std::string> words) {
     fs::create_directories(directory_.path() / "bench/peers");
     directory_.write("bench/peers/peers.txt", table);
-    fs::copy_file(ASPIC_PROGRAM, directory_.file("aspic"), fs::copy_options::overwrite_existing);
-    words.insert(words.begin(), {"bench", "--backend", "reference", "--duration", "0.02", "--repeats", "2"});
+    fs::copy_file(ASPIC_PEERS, directory_.file("aspic-peers"), fs::copy_options::overwrite_existing);
+    words.insert(words.begin(), {"--backend", "reference", "--duration", "0.02", "--repeats", "2"});
     return copied(words);
   }
 
   test::Finished copied(const std::vector<std::string>& words) {
     test::ProcessOptions options;
-    options.program = directory_.file("aspic");
+    options.program = directory_.file("aspic-peers");
     return aspic(words, options);
   }
 
@@ -37,8 +37,11 @@ class Peers : public testing::Test {
 };
 
 TEST_F(Peers, TheTextbookMovesAsTheReferenceDoes) {
-  const auto ran = aspic({"bench", "--backend", "reference", "--size", "4,6", "--duration", "0.3",
-                          "--repeats", "2", "--peer", "textbook", "--json"});
+  test::ProcessOptions options;
+  options.program = ASPIC_PEERS;
+  const auto ran = aspic({"--backend", "reference", "--size", "4,6", "--duration", "0.3", "--repeats", "2",
+                          "--peer", "textbook", "--json"},
+                         options);
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const json rows = json::parse(ran.out)["measurements"];
   ASSERT_EQ(rows.size(), 4u);
@@ -58,13 +61,11 @@ TEST_F(Peers, TheTextbookMovesAsTheReferenceDoes) {
 TEST_F(Peers, APeerThatMovesOtherwiseIsNotCounted) {
   // What aspic says later is not heard. Dampers are what a peer says they are.
   for (const char* const wrong : {"--stiffness 2040", "--gravity 10", "--timestep 0.00102"}) {
-    const auto ran =
-        run(std::string("wrong 10 " ASPIC_TEXTBOOK " ") + wrong + "\n", {"--size", "4", "--peers"});
+    const auto ran = run(std::string("wrong 10 " ASPIC_TEXTBOOK " ") + wrong + "\n", {"--size", "4"});
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
     EXPECT_THAT(ran.out, HasSubstr("not counted: after 50 steps")) << wrong;
   }
-  const auto ran =
-      run("wrong 10 " ASPIC_TEXTBOOK " --stiffness 2040\n", {"--size", "4", "--peers", "--json"});
+  const auto ran = run("wrong 10 " ASPIC_TEXTBOOK " --stiffness 2040\n", {"--size", "4", "--json"});
   const json row = json::parse(ran.out)["measurements"][1];
   EXPECT_EQ(row["check"]["passed"], false);
   EXPECT_FALSE(row.contains("spring_evaluations_per_second"));
@@ -80,7 +81,7 @@ TEST_F(Peers, OneThatCannotRunLeavesTheOthersTheirRows) {
           "small 3 " ASPIC_TEXTBOOK
           "\n"
           "good 10 " ASPIC_TEXTBOOK "\n",
-          {"--size", "4", "--peers"});
+          {"--size", "4"});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_THAT(ran.err, HasSubstr("skipped absent: "));
   EXPECT_THAT(ran.err, HasSubstr("scripts/peers.sh"));
@@ -94,7 +95,7 @@ TEST_F(Peers, OneThatCannotRunLeavesTheOthersTheirRows) {
 TEST_F(Peers, CtrlCLeavesWhatWasMeasured) {
   // The second size's peer interrupts the program that started it.
   directory_.write("stop.sh", "kill -INT $PPID\n");
-  const auto ran = run("stop 4 sh {source}/stop.sh\n", {"--size", "6,4", "--peers", "--json"});
+  const auto ran = run("stop 4 sh {source}/stop.sh\n", {"--size", "6,4", "--json"});
   EXPECT_EQ(ran.exit_code, 130);
   EXPECT_THAT(ran.err, HasSubstr("interrupted; the rows have the measurements made before"));
   const json report = json::parse(ran.out);
@@ -105,7 +106,7 @@ TEST_F(Peers, CtrlCLeavesWhatWasMeasured) {
 
 TEST_F(Peers, AreRefusedWhereTheyCannotBeCompared) {
   const auto refused = [&](std::vector<std::string> words, const char* why) {
-    words.insert(words.end(), {"--peers", "--size", "4"});
+    words.insert(words.end(), {"--size", "4"});
     const auto ran = run("good 10 " ASPIC_TEXTBOOK "\n", words);
     EXPECT_EQ(ran.exit_code, 2) << why;
     EXPECT_THAT(ran.err, HasSubstr(why));
@@ -118,7 +119,7 @@ TEST_F(Peers, AreRefusedWhereTheyCannotBeCompared) {
   refused({"--set", "cube[0].position=[0,1,0]"}, "touch the ground");
   refused({"--peer", "tortoise"}, "--peer does not know \"tortoise\"; allowed: good.");
   fs::remove_all(directory_.path() / "bench");
-  const auto elsewhere = copied({"bench", "--peers"});
+  const auto elsewhere = copied({});
   EXPECT_EQ(elsewhere.exit_code, 2);
   EXPECT_THAT(elsewhere.err, HasSubstr("checkout"));
 }
