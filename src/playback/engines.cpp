@@ -116,7 +116,10 @@ Result<Backend> EngineFactory::make(const SharedModel& model, const BackendRow& 
 
 Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup) {
   ASPIC_TRY(auto built, build_model(setup));
-  const SharedModel model = shared(std::move(built));
+  return make_like(like, shared(std::move(built)));
+}
+
+Result<Engines> EngineFactory::make_like(const Engines& like, const SharedModel& model) {
   auto leader = make(model, *like.leader().row, like.gpu());
   if (leader && like.shadowed()) {
     ASPIC_TRY(auto shadow, make(model, *like.shadow().row, like.gpu()));

@@ -108,6 +108,8 @@ class EngineFactory {
   /// A model with solvers on the same backends as `like`. Where a leader in the context refuses the model the
   /// contextless_backend() takes its place without a shadow, as `departure` says. Without solvers in the
   /// context it may run on another thread.
+  Result<Engines> make_like(const Engines& like, const SharedModel& model);
+  /// Builds the setup's model first. Errors: also those of build_model().
   Result<Engines> make_like(const Engines& like, const Setup& setup);
 
  private:

@@ -30,9 +30,9 @@ class Jobs {
   /// Cancels and waits for the end; the results are still to be collected, or to be forgotten.
   void finish() { worker_.finish(); }
   void wait() { worker_.wait(); }
+  /// Drops results, but not that of a job that cancel() leaves alone.
   void forget() {
-    results_.clear();
-    uncancelled_ = false;
+    if (!uncancelled_) results_.clear();
   }
 
   /// Jobs that have not ended.

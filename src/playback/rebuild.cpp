@@ -39,22 +39,22 @@ void Rebuild::begin() {
   request_.reset();
   const std::uint64_t particles =
       std::max<std::uint64_t>(present_.model().particle_count(), predict_counts(setup.settings).particles);
-  if (particles < long_to_build || present_.engines().use_context()) {
+  if (particles < long_to_build) {
     change_result_ = change_setup(std::move(setup), keep_state);
     return;
   }
-  const auto change = std::make_shared<Change>(begin_change(std::move(setup), keep_state));
-  if (const auto changed = change_constants(*change); !changed || *changed) {
-    change_result_ = changed ? Status() : Status(changed.error());
+  if (const Status read = stepper_.refresh_snapshot(); !read) {
+    change_result_ = read;
     return;
   }
+  const auto change = std::make_shared<Change>(begin_change(std::move(setup), keep_state));
+  const bool with_engines = !present_.engines().use_context();
   building_ = true;
-  jobs_.start_uncancelled([this, change](const std::atomic<bool>&) -> Jobs::TakeUp {
-    const auto engines =
-        std::make_shared<Result<Engines>>(factory_.make_like(present_.engines(), change->setup));
-    return [this, change, engines] {
+  jobs_.start_uncancelled([this, change, with_engines](const std::atomic<bool>&) -> Jobs::TakeUp {
+    const auto built = std::make_shared<Result<Built>>(build(*change, with_engines));
+    return [this, change, built] {
       building_ = false;
-      change_result_ = finish_change(std::move(*change), std::move(*engines));
+      change_result_ = finish_change(std::move(*change), std::move(*built));
       return Status();
     };
   });
@@ -65,22 +65,28 @@ Status Rebuild::change_setup(Setup setup, bool keep_state) {
   if (!keep_state) timeline_.stop();
   ASPIC_CHECK(playback_.halt(true));
   Change change = begin_change(std::move(setup), keep_state);
-  ASPIC_TRY(const bool changed, change_constants(change));
-  if (changed) return {};
-  auto engines = factory_.make_like(present_.engines(), change.setup);
-  return finish_change(std::move(change), std::move(engines));
+  auto built = build(change, true);
+  return finish_change(std::move(change), std::move(built));
 }
 
-/// Whether the solvers could go over to the setup: it differs in constants alone.
-Result<bool> Rebuild::change_constants(const Change& change) {
-  if (!change.keep_state) return false;
-  ASPIC_TRY(auto built, build_model(change.setup));
-  const SharedModel next = shared(std::move(built));
-  if (!check_same_topology(present_.model(), *next)) return false;
+/// On the run's thread, or on another one if nothing here needs the context; the present model stays.
+Result<Rebuild::Built> Rebuild::build(const Change& change, bool with_engines) {
+  Built built;
+  ASPIC_TRY(auto model, build_model(change.setup));
+  built.model = shared(std::move(model));
+  built.constants = change.keep_state && check_same_topology(present_.model(), *built.model);
+  if (!built.constants && with_engines) {
+    ASPIC_TRY(built.engines, factory_.make_like(present_.engines(), built.model));
+  }
+  return built;
+}
+
+/// The solvers go over to the setup.
+Status Rebuild::change_constants(const Change& change, SharedModel model) {
   const double now = present_.time();  // by the old time step, as all samples are
   const bool same_state = change.state.step == present_.snapshot().step &&
-                          same_pins(present_.model(), *next) && !present_.divergence();
-  ASPIC_CHECK(present_.set_constants(change.setup, next));
+                          same_pins(present_.model(), *model) && !present_.divergence();
+  ASPIC_CHECK(present_.set_constants(change.setup, std::move(model)));
   if (!timeline_.at_end()) stepper_.forget_future(now);
   figures_.samples().clear_differed();
   if (same_state) {
@@ -92,7 +98,7 @@ Result<bool> Rebuild::change_constants(const Change& change) {
   }
   // With other constants this state has another energy.
   figures_.samples().truncate(std::nextafter(present_.time(), -1.0));
-  return true;
+  return {};
 }
 
 /// The setup to be built, and the state it continues from: the snapshot is that of the step, and stays so.
@@ -115,10 +121,15 @@ Rebuild::Change Rebuild::begin_change(Setup setup, bool keep_state) const {
   return change;
 }
 
-Status Rebuild::finish_change(Change change, Result<Engines> engines) {
+Status Rebuild::finish_change(Change change, Result<Built> built) {
+  if (!built) return built.error();
+  if (built->constants) return change_constants(change, std::move(built->model));
   const std::size_t thrown = change.setup.thrown.size();
   const double now = present_.time();  // by the old time step, as all samples are
-  ASPIC_CHECK(stepper_.install(std::move(change.setup), std::move(engines)));
+  if (!built->engines) {
+    ASPIC_TRY(built->engines, factory_.make_like(present_.engines(), built->model));
+  }
+  ASPIC_CHECK(stepper_.install(std::move(change.setup), std::move(*built->engines)));
   const Model& model = present_.model();
   if (!change.keep_state || model.particle_count() != change.state.position.size() ||
       model.ball_count() - thrown != change.scene_balls)

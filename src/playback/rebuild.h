@@ -35,9 +35,10 @@ class Rebuild {
   /// Runs a changed scene from now on. With `keep_state` the motion continues with other constants, where the
   /// bodies have the same particles. Errors leave everything as it was: scene_rejected, no_device.
   Status change(const Scene& scene, bool keep_state);
-  /// The same without waiting: where building takes long a thread does it while nothing moves, and a later
-  /// Simulation::update() continues with it. take_change() returns how a change ended, once for each; a
-  /// request before that replaces one that has not begun, and Playback::seek() drops it.
+  /// The same without waiting: where building takes long a thread builds the model, and solvers that need no
+  /// context, while nothing moves; a later Simulation::update() continues with it. take_change() returns how
+  /// a change ended, once for each; a request before that replaces one that has not begun, and
+  /// Playback::seek() drops it.
   void request(const Scene& scene, bool keep_state);
   std::optional<Status> take_change() { return std::exchange(change_result_, std::nullopt); }
   bool changing() const { return requested() || building(); }
@@ -73,7 +74,7 @@ class Rebuild {
   // ---- for Simulation::update() ----
   /// A change waits to begin.
   bool requested() const { return request_ && request_->seeks == playback_.seeks(); }
-  /// Solvers for it are being made.
+  /// Its model is being built.
   bool building() const { return building_; }
   /// Begins the change that was asked for; no job is under way.
   void begin();
@@ -91,10 +92,18 @@ class Rebuild {
     State state;
     std::size_t scene_balls = 0;
   };
+  /// The model of a change.
+  struct Built {
+    SharedModel model;
+    bool constants = false;  ///< it differs from the present one in constants alone
+    /// Its solvers; nothing where the present ones go over to it, or are made on the run's thread.
+    std::optional<Engines> engines;
+  };
   Status change_setup(Setup setup, bool keep_state);
   Change begin_change(Setup setup, bool keep_state) const;
-  Status finish_change(Change change, Result<Engines> engines);
-  Result<bool> change_constants(const Change& change);
+  Result<Built> build(const Change& change, bool with_engines);
+  Status finish_change(Change change, Result<Built> built);
+  Status change_constants(const Change& change, SharedModel model);
   Status begin_stretch(const State& state);
   void forget_run();
 

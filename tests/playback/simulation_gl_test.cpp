@@ -243,6 +243,40 @@ TEST_P(InMotion, FiguresOfAPausedRunAreOfItsState) {
   EXPECT_EQ(run->samples().nearest(run->time())->step, 7u);
 }
 
+TEST_P(InMotion, BuildsALargeModelOnAnotherThread) {
+  Scene large = scene;
+  large.model.cubes[0].particles_per_edge = 28;
+  const auto change_to = [&](bool keep_state) {
+    const std::uint64_t before = run->present().model_number();
+    update_until([&] { return !run->busy(); });
+    run->rebuild().request(large, keep_state);
+    ASSERT_TRUE(run->update(0.016, 0.01).ok());
+    EXPECT_TRUE(run->rebuild().building()) << "a later update takes the model up";
+    EXPECT_EQ(run->present().model_number(), before);
+  };
+  const auto finish = [&] {
+    update_until([&] { return !run->rebuild().changing(); });
+    const auto changed = run->rebuild().take_change();
+    ASSERT_TRUE(changed.has_value());
+    EXPECT_TRUE(changed->ok());
+  };
+  change_to(false);
+  finish();
+  EXPECT_EQ(run->model().particle_count(), 28u * 28u * 28u);
+  large.model.contact.friction = 0.7;
+  change_to(true);
+  finish();
+  EXPECT_EQ(run->model().contact.friction, 0.7);
+  EXPECT_EQ(run->playback().here(), (Moment{1, 0})) << "the motion continues";
+  // The context goes while a model is built.
+  large.model.contact.friction = 0.6;
+  change_to(true);
+  ASSERT_TRUE(run->rebuild().leave_context({ErrorCode::no_device, "gone"}).ok());
+  finish();
+  EXPECT_EQ(run->model().contact.friction, 0.6);
+  EXPECT_FALSE(run->present().engines().use_context());
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, InMotion, ::testing::Values("reference", "gpu"));
 
 }  // namespace
