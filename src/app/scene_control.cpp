@@ -17,6 +17,7 @@ namespace aspic::app {
 void SceneControl::show_opened(const std::string& left) {
   view_.keep_camera(left);
   pending_ = Effect::none;
+  taken_ = editor_.last_change();
   unchanged_for_ = 0.0;
   messages_.dismiss();
   simulation_.stepper().replay({});
@@ -92,6 +93,7 @@ void SceneControl::reread_file() {
   const bool changed = editor_.changed();
   pending_ = Effect::none;
   if (!messages_.check(editor_.apply(loaded->scene(), "reading the file", ""))) return;
+  taken_ = editor_.last_change();
   editor_.mark_saved();
   if (camera != editor_.scene().view.camera) view_.camera = CameraControl(editor_.scene().view.camera);
   messages_.info(
@@ -182,12 +184,35 @@ void SceneControl::take_effect(Result<Effect> effect) {
 }
 
 void SceneControl::follow_history() {
-  Scene scene = editor_.scene();
-  scene.model = simulation_.present().setup().settings;
-  if (effect_between(editor_.scene(), scene) < Effect::constants) return;
+  if (effect_on_running() >= Effect::constants) return adopt_running("going back in time");
+  taken_ = editor_.last_change();
+}
+
+/// What a change of the simulation's scene to the editor's asks of it.
+Effect SceneControl::effect_on_running() const {
+  Scene running = scene();
+  running.model = simulation_.present().setup().settings;
+  return effect_between(running, scene());
+}
+
+/// The editor's scene becomes the simulation's, under a name for undo.
+void SceneControl::adopt_running(const std::string& name) {
+  Scene running = scene();
+  running.model = simulation_.present().setup().settings;
   pending_ = Effect::none;
-  if (const auto applied = editor_.apply(std::move(scene), "going back in time", ""); !applied)
+  if (const auto applied = editor_.apply(std::move(running), name, ""); !applied)
     messages_.error(applied.error());
+  taken_ = editor_.last_change();
+}
+
+/// Takes back the changes that the simulation was asked for and refused, and asks for those that are left.
+void SceneControl::take_back_refused() {
+  const bool later = editor_.last_change() != requested_change_;
+  const bool withdrawn = editor_.withdraw(taken_, requested_change_);
+  pending_ = Effect::none;
+  const Effect left = effect_on_running();
+  if (withdrawn || later || left < Effect::constants) return take_effect(left);
+  adopt_running("what the simulation refused");
 }
 
 void SceneControl::update(double dt) {
@@ -203,6 +228,7 @@ void SceneControl::update(double dt) {
   if (!pending() || simulation_.rebuild().changing() || since_rebuild_ < 4.0 * rebuild_seconds_) return;
   requested_ = std::exchange(pending_, Effect::none);
   requested_at_ = std::chrono::steady_clock::now();
+  requested_change_ = editor_.last_change();
   had_moved_ = simulation_.step() > 0;
   simulation_.rebuild().request(editor_.scene(), requested_ == Effect::constants);
 }
@@ -213,12 +239,14 @@ bool SceneControl::finish_change() {
   rebuild_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - requested_at_).count();
   since_rebuild_ = 0.0;
   if (!messages_.check(*changed)) {
-    if (editor_.can_undo()) editor_.undo();
-  } else if (requested_ == Effect::restart && (had_moved_ || !beside_.empty())) {
-    // A run that had not begun loses nothing.
-    say_beside(had_moved_ ? "The bodies changed: the simulation was restarted." : "");
+    take_back_refused();
   } else {
-    messages_.dismiss_error();
+    taken_ = std::max(taken_, requested_change_);
+    if (requested_ == Effect::restart && (had_moved_ || !beside_.empty()))
+      // A run that had not begun loses nothing.
+      say_beside(had_moved_ ? "The bodies changed: the simulation was restarted." : "");
+    else
+      messages_.dismiss_error();
   }
   beside_.clear();
   return rebuild_seconds_ > 0.05;

@@ -2,6 +2,7 @@
 // The scene that is open, kept in step with its simulation: opening, changing, undo, and the file on disk.
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -80,6 +81,9 @@ class SceneControl {
   void show_opened(const std::string& left);
   bool undone(Effect effect, const std::string& left, Effect (SceneEditor::*back)());
   void reread_file();
+  void take_back_refused();
+  void adopt_running(const std::string& name);
+  Effect effect_on_running() const;
 
   void list_file();
 
@@ -90,6 +94,8 @@ class SceneControl {
   Messages& messages_;
   std::string beside_;  // what to say besides the end of a change
   Effect pending_ = Effect::none, requested_ = Effect::none;
+  /// The editor's last change that the simulation has, and the last one that it was asked for.
+  std::uint64_t taken_ = 0, requested_change_ = 0;
   bool had_moved_ = false;  // when the change was requested
   double rebuild_seconds_ = 0.0, since_rebuild_ = 0.0, since_file_look_ = 0.0, unchanged_for_ = 0.0;
   std::chrono::steady_clock::time_point requested_at_ = {};

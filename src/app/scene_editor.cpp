@@ -35,6 +35,31 @@ std::optional<std::filesystem::file_time_type> time_of(const std::string& path) 
   return error ? std::nullopt : std::optional(time);
 }
 
+/// `scene` with all values that changed from `before` to `after` as they were before. Nothing where it has
+/// other bodies or lists, or where the result would not be a legal scene.
+std::optional<Scene> without_change(Scene scene, const Scene& before, const Scene& after) {
+  const auto same_size = [&](const SettingsList& list) {
+    const std::size_t size = list.size(scene.model);
+    return list.size(before.model) == size && list.size(after.model) == size;
+  };
+  if (!std::ranges::all_of(body_rows(), same_size, &BodyRow::list) ||
+      !std::ranges::all_of(settings_lists(), same_size))
+    return std::nullopt;
+  for (const Parameter& p : parameters()) {
+    for (std::size_t i = 0; i < index_count(p, before); ++i) {
+      const auto old = p.get(before, i), changed = p.get(after, i);
+      if (old == changed || p.get(scene, i) != changed) continue;
+      if (old)
+        p.set(scene, i, *old);
+      else if (p.can_be_absent())
+        p.clear(scene, i);
+      if (p.get(scene, i) != old) return std::nullopt;
+    }
+  }
+  if (!check_scene(scene, available_memory()).empty()) return std::nullopt;
+  return scene;
+}
+
 }  // namespace
 
 Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std::string> overrides) {
@@ -120,6 +145,7 @@ void SceneEditor::begin_entry(const std::string& name, const std::string& gestur
     if (undo_.size() == longest_past) forget_oldest();
     undo_.push_back({scene_, differences_, name, origin_});
   }
+  undo_.back().number = ++last_change_;
   gesture_ = gesture;
   redo_.clear();
 }
@@ -140,7 +166,7 @@ Effect SceneEditor::swap_with(std::vector<Entry>& from, std::vector<Entry>& to) 
   Entry entry = std::move(from.back());
   from.pop_back();
   const Effect effect = entry.origin == origin_ ? effect_between(scene_, entry.scene) : Effect::opening;
-  to.push_back({std::move(scene_), std::move(differences_), entry.name, std::move(origin_)});
+  to.push_back({std::move(scene_), std::move(differences_), entry.name, std::move(origin_), ++last_change_});
   scene_ = std::move(entry.scene);
   differences_ = std::move(entry.differences);
   origin_ = std::move(entry.origin);
@@ -154,6 +180,35 @@ Effect SceneEditor::undo() {
 
 Effect SceneEditor::redo() {
   return swap_with(redo_, undo_);
+}
+
+/// Takes back the change of an entry that is not the last one. False: a later one depends on it.
+bool SceneEditor::remove_entry(std::size_t index) {
+  std::vector<Scene> later;
+  for (std::size_t i = index + 1; i < undo_.size(); ++i) {
+    auto scene = without_change(scene_after(i), undo_[index].scene, scene_after(index));
+    if (!scene) return false;
+    later.push_back(std::move(*scene));
+  }
+  undo_[index + 1].scene = std::move(undo_[index].scene);
+  undo_.erase(undo_.begin() + static_cast<std::ptrdiff_t>(index));
+  for (std::size_t i = 0; i < later.size(); ++i) scene_after(index + i) = std::move(later[i]);
+  if (origin_->saved > index) origin_->saved = never;
+  return true;
+}
+
+bool SceneEditor::withdraw(std::uint64_t after, std::uint64_t last) {
+  bool any = false;
+  for (std::size_t i = undo_.size(); i-- > 0 && undo_[i].origin == origin_;) {
+    const Entry& entry = undo_[i];
+    if (entry.number <= after || entry.number > last ||
+        effect_between(entry.scene, scene_after(i)) < Effect::constants)
+      continue;
+    any = true;
+    if (i + 1 < undo_.size() && remove_entry(i)) continue;
+    while (undo_.size() > i) undo();
+  }
+  return any;
 }
 
 Status SceneEditor::save_as(const std::string& path, const CameraSettings& camera, Overwrite overwrite) {

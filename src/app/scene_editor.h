@@ -1,5 +1,6 @@
 #pragma once
 // The scene that is shown and changed: where it came from, what was changed, and the way back.
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -66,6 +67,12 @@ class SceneEditor {
   Effect undo();
   Effect redo();
 
+  /// The number of the last change, undo or redo.
+  std::uint64_t last_change() const { return last_change_; }
+  /// Takes back the changes of what is simulated numbered above `after`, up to `last`, since the scene was
+  /// opened. Later changes stay, or go too where they depend on these. False: there are none.
+  bool withdraw(std::uint64_t after, std::uint64_t last);
+
   /// Writes the scene as it is now, as a person would, with this camera; the file is the one that is open
   /// from then on. Error (io): it exists and may not be overwritten, or cannot be written.
   Status save_as(const std::string& path, const CameraSettings& camera, Overwrite overwrite);
@@ -91,14 +98,18 @@ class SceneEditor {
     std::vector<Difference> differences;
     std::string name;
     std::shared_ptr<Origin> origin;  ///< of all entries since it was opened
+    std::uint64_t number = 0;        ///< last_change() with it
   };
   void forget_oldest();
+  Scene& scene_after(std::size_t entry) { return entry + 1 < undo_.size() ? undo_[entry + 1].scene : scene_; }
+  bool remove_entry(std::size_t index);
   void begin_entry(const std::string& name, const std::string& gesture);
   Effect swap_with(std::vector<Entry>& from, std::vector<Entry>& to);
 
   Scene scene_;
   std::vector<Difference> differences_;
   std::string gesture_;
+  std::uint64_t last_change_ = 0;
   std::shared_ptr<Origin> origin_ = std::make_shared<Origin>();  // never null
   std::vector<Entry> undo_, redo_;
 };

@@ -149,6 +149,53 @@ TEST(SceneEditor, OpeningIsAnEntryThatComesBackToTheChanges) {
   EXPECT_EQ(editor.undo(), Effect::opening);
 }
 
+TEST(SceneEditor, WithdrawsAChangeAndKeepsLaterOnes) {
+  SceneEditor editor = editor_of("cube-plane");
+  const Parameter& step = key("simulation.timestep");
+  const Parameter& friction = key("contact.friction");
+  const Value friction_before = *friction.get(editor.scene(), 0);
+  ASSERT_TRUE(editor.set(friction, 0, Value(0.25), "").ok());
+  const std::uint64_t taken = editor.last_change();
+  ASSERT_TRUE(editor.set(step, 0, Value(0.002), "").ok());
+  const std::uint64_t last = editor.last_change();
+  ASSERT_TRUE(editor.set(friction, 0, Value(0.7), "").ok());
+  ASSERT_TRUE(editor.set(friction, 0, Value(0.8), "").ok());
+  EXPECT_TRUE(editor.withdraw(taken, last));
+  EXPECT_EQ(editor.scene().model.simulation.timestep, 0.001);
+  EXPECT_EQ(editor.scene().model.contact.friction, 0.8);
+  EXPECT_FALSE(editor.withdraw(taken, last)) << "it is gone";
+  for (const double before : {0.7, 0.25, std::get<double>(friction_before)}) {
+    editor.undo();
+    EXPECT_EQ(editor.scene().model.contact.friction, before);
+    EXPECT_EQ(editor.scene().model.simulation.timestep, 0.001);
+  }
+  EXPECT_FALSE(editor.can_undo());
+  EXPECT_FALSE(editor.changed());
+}
+
+TEST(SceneEditor, WithdrawsLaterChangesThatDependOnIt) {
+  SceneEditor editor = editor_of("cube-plane");
+  Scene two = editor.scene();
+  two.model.cubes.push_back(two.model.cubes[0]);
+  two.model.cubes[1].position.x += 8.0;
+  ASSERT_TRUE(editor.apply(two, "another cube", "").ok());
+  const std::uint64_t last = editor.last_change();
+  ASSERT_TRUE(editor.set(key("cube[].edge-length"), 1, Value(2.0), "").ok());
+  EXPECT_TRUE(editor.withdraw(0, last));
+  EXPECT_EQ(editor.scene().model.cubes.size(), 1u);
+  EXPECT_FALSE(editor.can_undo());
+  editor.redo();
+  editor.redo();
+  EXPECT_EQ(editor.scene().model.cubes[1].edge_length, 2.0);
+}
+
+TEST(SceneEditor, WithdrawsNoOpening) {
+  SceneEditor editor = editor_of("cube-plane");
+  editor.open(editor_of("cube-sphere"));
+  EXPECT_FALSE(editor.withdraw(0, editor.last_change()));
+  EXPECT_EQ(editor.source(), "cube-sphere");
+}
+
 TEST(SceneEditor, TheOldestEntriesAreForgottenOfEverySource) {
   SceneEditor editor = editor_of("cube-plane");
   editor.open(editor_of("cube-sphere"));

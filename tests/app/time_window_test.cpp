@@ -5,6 +5,7 @@
 
 #include "app/stage.h"
 #include "cpu_reference/reference_solver.h"
+#include "playback/endless.h"
 #include "support/projection.h"
 
 namespace aspic::test {
@@ -28,6 +29,117 @@ class Time : public Stage {
   }
   void settle() { ASSERT_TRUE(simulation().settle().ok()); }
 };
+
+/// The reference without steps, which refuses other constants and more than 22,000 particles.
+class Refusing final : public Endless {
+ public:
+  using Endless::Endless;
+
+ private:
+  Status take_constants(SharedModel, std::uint64_t) override {
+    return Error{ErrorCode::no_device, "No other constants."};
+  }
+};
+
+const BackendRow& refusing_backend() {
+  static const BackendRow row = [] {
+    BackendRow made = endless_backend();
+    made.name = made.title = "refusing";
+    made.make = [](SharedModel model, const BackendChoice&, const SolverHost&) -> Result<Backend> {
+      if (model->particle_count() > 22000) return Error{ErrorCode::no_device, "Too many particles."};
+      ASPIC_TRY(auto reference, make_reference_solver(std::move(model), Precision::single));
+      Backend backend;
+      backend.solver = std::make_unique<Refusing>(std::move(reference));
+      return backend;
+    };
+    return made;
+  }();
+  return row;
+}
+
+class RefusedChange : public Time {
+ protected:
+  void open_large() {
+    open("cube-plane", {"cube[0].particles-per-edge=28"}, "reference");
+    ASSERT_TRUE(simulation().rebuild().set_backend(refusing_backend()).ok());
+  }
+  void set(std::string_view key, const Value& value) {
+    app().scene.set_value(*find_parameter(key), 0, value, "");
+  }
+  /// The refused one, which is being built after it.
+  void ask_for_too_many() {
+    set("cube[].particles-per-edge", Value(std::int64_t{29}));
+    frames(1);
+    ASSERT_TRUE(simulation().rebuild().building());
+  }
+  void finish() {
+    frames_until([&] { return !simulation().rebuild().changing() && !app().scene.pending(); });
+  }
+  const Scene& scene() { return app().scene.scene(); }
+  void expect_in_step() {
+    Scene running = scene();
+    running.model = simulation().present().setup().settings;
+    EXPECT_EQ(effect_between(running, scene()), Effect::none);
+  }
+  std::string notice() { return app().messages.notice() ? app().messages.notice()->text : ""; }
+};
+
+TEST_F(RefusedChange, IsTakenBackAndALaterOneStays) {
+  open_large();
+  ask_for_too_many();
+  set("cube[].position", Value(Vec3{0.0, 3.0, 0.0}));
+  finish();
+  EXPECT_EQ(simulation().model().particle_count(), 28u * 28u * 28u);
+  EXPECT_EQ(scene().model.cubes[0].position.y, 3.0);
+  EXPECT_EQ(simulation().present().setup().settings.cubes[0].position.y, 3.0);
+  expect_in_step();
+  app().scene.undo();
+  EXPECT_FALSE(app().scene.editor().changed()) << "the refused one is no entry";
+}
+
+TEST_F(RefusedChange, IsTakenBackWithItsError) {
+  open_large();
+  set("view.terrain", Value(false));
+  ask_for_too_many();
+  finish();
+  EXPECT_EQ(notice(), "Too many particles.");
+  EXPECT_EQ(scene().model.cubes[0].particles_per_edge, 28);
+  expect_in_step();
+  EXPECT_TRUE(app().scene.editor().can_redo());
+}
+
+TEST_F(RefusedChange, IsNotAskedForAgainOnceUndone) {
+  open_large();
+  ask_for_too_many();
+  app().scene.undo();
+  finish();
+  expect_in_step();
+  EXPECT_FALSE(app().scene.editor().can_undo());
+}
+
+TEST_F(RefusedChange, LeavesAnOpenedSceneOpen) {
+  open("cube-plane", {"cube[0].particles-per-edge=3"}, "reference");
+  ASSERT_TRUE(simulation().rebuild().set_backend(refusing_backend()).ok());
+  app().scene.open("cube-sphere");
+  frames(2);
+  app().scene.hand_over();
+  frames(2);
+  EXPECT_EQ(notice(), "No other constants.");
+  EXPECT_EQ(app().scene.editor().source(), "cube-sphere");
+  expect_in_step();
+}
+
+TEST_F(RefusedChange, WithoutAnEntryFollowsTheSimulation) {
+  open("cube-plane", {"cube[0].particles-per-edge=3"}, "reference");
+  set("contact.friction", Value(0.7));
+  frames(2);
+  ASSERT_TRUE(simulation().rebuild().set_backend(refusing_backend()).ok());
+  app().scene.undo();
+  frames(2);
+  EXPECT_EQ(notice(), "No other constants.");
+  EXPECT_EQ(scene().model.contact.friction, 0.7);
+  expect_in_step();
+}
 
 class TimeOnBackend : public Time, public testing::WithParamInterface<const char*> {};
 
