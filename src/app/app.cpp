@@ -350,7 +350,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   gui_->begin(dt);
   view.text_scale = gui_->scale();
   draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, files,
-               palette, comparison, comparison_view, closing, help_visible, cells},
+               palette, comparison, comparison_view, closing, help_visible, cells, stability},
               size.width, size.height);
   if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
     view.frame_bodies(simulation.model(), simulation.snapshot());

@@ -23,6 +23,7 @@
 #include "app/view.h"
 #include "app/window.h"
 #include "playback/simulation.h"
+#include "playback/stability_map.h"
 
 namespace aspic::app {
 
@@ -103,6 +104,7 @@ class App final : public EventReceiver {
   FileDialog files;
   Palette palette;
   CellEditor cells;
+  StabilityMap stability;  // kept while its section is closed
   Closing closing = Closing::no;
   bool help_visible = false;
 

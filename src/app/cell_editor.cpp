@@ -99,11 +99,18 @@ void CellEditor::refuse(const Scene& changed) {
   }
 }
 
-void CellEditor::stroke(const CellPlace& from, const CellPlace& to, char cell) {
+void CellEditor::begin_stroke(const CellPlace& from, char cell) {
+  stroke_ = {from, cell};
+  ++strokes_;
+}
+
+void CellEditor::stroke(const CellPlace& to) {
+  if (!stroke_) return;
+  const auto [from, cell] = std::exchange(*stroke_, {to, stroke_->cell});
   change(
       cell == empty_cell ? "erase cells" : "paint cells",
       [&](VoxelsSettings& v) { paint(v.layers, layer_, from, to, cell); },
-      fmt::format("cells of {}, stroke {}", body_, stroke_));
+      fmt::format("cells of {}, stroke {}", body_, strokes_));
 }
 
 void CellEditor::take_as(Pieces pieces) {

@@ -45,9 +45,11 @@ class CellEditor {
   /// that the scene refuses wait: nothing is lost, and the next change may mend them.
   void change(const std::string& name, const std::function<void(VoxelsSettings&)>& make,
               const std::string& gesture = "");
-  /// A stroke of the mouse over cells of the layer, all of it one change for undo.
-  void begin_stroke() { ++stroke_; }
-  void stroke(const CellPlace& from, const CellPlace& to, char cell);
+  /// A stroke of the mouse over cells of the layer that become `cell`, all of it one change for undo.
+  void begin_stroke(const CellPlace& from, char cell);
+  /// Goes on to a place; without effect where no stroke has begun.
+  void stroke(const CellPlace& to);
+  void end_stroke() { stroke_.reset(); }
   /// Takes the cells that wait with another choice of `pieces`.
   void take_as(Pieces pieces);
   /// Takes back the last change that waits. False: none does.
@@ -79,7 +81,12 @@ class CellEditor {
   std::size_t body_ = 0;
   int layer_ = 0;
   char brush_ = '\0';
-  unsigned stroke_ = 0;
+  struct Stroke {
+    CellPlace last;
+    char cell = '\0';
+  };
+  std::optional<Stroke> stroke_;
+  unsigned strokes_ = 0;
   std::vector<Waiting> waiting_;
   CellLayers waits_upon_;  // the scene's cells that those were made of
   std::string refusal_;

@@ -83,21 +83,18 @@ void draw_cells(const Scene& scene, const VoxelsSettings& voxels, int layer, con
 
 /// Paints and erases where the mouse goes with a button held on the grid.
 void strokes(CellEditor& cells, const GridPlaces& places, const CellPlace& under) {
-  static CellPlace last;  // of the stroke that goes on
-  static bool erases = false;
   const bool left = ImGui::IsMouseDown(ImGuiMouseButton_Left),
              right = ImGui::IsMouseDown(ImGuiMouseButton_Right);
   if (ImGui::IsItemActivated()) {
-    cells.begin_stroke();
-    erases = right && !left;
     // Where the button went down, though the mouse may be farther by now.
     const ImGuiIO& io = ImGui::GetIO();
-    last = places.under(io.MouseClickedPos[left ? ImGuiMouseButton_Left : ImGuiMouseButton_Right]);
+    cells.begin_stroke(
+        places.under(io.MouseClickedPos[left ? ImGuiMouseButton_Left : ImGuiMouseButton_Right]),
+        right && !left ? empty_cell : cells.brush());
   }
   // The mouse may have gone on in the picture in which the button came up.
-  if (!ImGui::IsItemActive() && !ImGui::IsItemDeactivated()) return;
-  cells.stroke(last, under, erases ? empty_cell : cells.brush());
-  last = under;
+  if (ImGui::IsItemActive() || ImGui::IsItemDeactivated()) cells.stroke(under);
+  if (!ImGui::IsItemActive()) cells.end_stroke();
 }
 
 /// The material of the cell is the one to paint with.

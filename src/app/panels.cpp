@@ -69,7 +69,7 @@ constexpr Heading right_sections[] = {
        state_files(p.gui, p.scene.editor().source(), p.simulation, p.comparison_view, p.messages, p.files);
      },
      "Films of the scene; its states, energies and checkpoints as files."},
-    {"Stability", [](Parts p) { stability_section(p.gui, p.scene); },
+    {"Stability", [](Parts p) { stability_section(p.gui, p.scene, p.stability); },
      "Which time steps and stiffnesses are stable, and where the scene is among them."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.comparison, p.picture); },
      "Speed of simulation and drawing, and the devices used."},

@@ -26,6 +26,7 @@
 #include "app/view.h"
 #include "model/bodies.h"
 #include "playback/simulation.h"
+#include "playback/stability_map.h"
 
 namespace aspic::app {
 
@@ -52,6 +53,7 @@ struct PanelParts {
   Closing& closing;
   bool& help_visible;
   CellEditor& cells;
+  StabilityMap& stability;
 };
 
 /// The sections by heading, each with what is in it.
@@ -114,7 +116,7 @@ void performance_section(Gui& gui, Simulation& simulation, const Comparison& com
 void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, Layouts& layout);
 void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& comparison_view);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
-void stability_section(Gui& gui, SceneControl& scene);
+void stability_section(Gui& gui, SceneControl& scene, StabilityMap& map);
 
 /// What is known of a particle, in the lower left corner of the view, above what is in its way there. Returns
 /// its place.

@@ -8,7 +8,6 @@
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "aspic/scene.h"
-#include "playback/stability_map.h"
 #include "scene/short_keys.h"
 
 namespace aspic::app {
@@ -127,8 +126,7 @@ std::string help_of(const StabilityCells& map, std::optional<std::size_t> cell) 
 
 }  // namespace
 
-void stability_section(Gui& gui, SceneControl& scenes) {
-  static StabilityMap map;  // one window at a time, and it is worth keeping while the section is closed
+void stability_section(Gui& gui, SceneControl& scenes, StabilityMap& map) {
   map.update(scenes.scene());
   const StabilityCells* const cells = map.cells();
   if (!cells) {

@@ -137,6 +137,18 @@ layers = [
   EXPECT_EQ(effect_between(*again, app().scene.scene()), Effect::none) << "and forth again";
 }
 
+TEST_F(Building, AStrokePaintsOnlyFromItsBeginningToItsEnd) {
+  open_with(file("beam.toml", beam), {"Cells"});
+  app::CellEditor& cells = app().cells;
+  cells.stroke({1, 3});
+  EXPECT_EQ(body().layers, (CellLayers{{"1111", "1111"}}));
+  cells.begin_stroke({0, 0}, '2');
+  cells.stroke({0, 1});
+  cells.end_stroke();
+  cells.stroke({1, 3});
+  EXPECT_EQ(body().layers, (CellLayers{{"2211", "1111"}}));
+}
+
 TEST_F(Building, RefusedCellsWaitAndNothingIsLost) {
   open_with(file("beam.toml", beam), {"Cells"});
   erase({0, 2}, {1, 2});

@@ -169,7 +169,10 @@ TEST_F(Gallery, CellsArePainted) {
   open("bridge", {"view.camera={position=[2.6,3.6,5.2],target=[0,0.7,0],fov=44}"}, "reference", kept);
   app().cells.choose_layer(4);
   app().cells.choose_brush('o');
-  for (int row = 0; row < 5; ++row) app().cells.stroke({row, 9 + row % 2}, {row, 14 - row % 2}, 'o');
+  for (int row = 0; row < 5; ++row) {
+    app().cells.begin_stroke({row, 9 + row % 2}, 'o');
+    app().cells.stroke({row, 14 - row % 2});
+  }
   frames(3);
   const app::Box grid = widgets().at("cells/grid");
   app().cursor(grid.left + 0.65 * (grid.right - grid.left), grid.centre_y());

@@ -19,6 +19,15 @@ class StabilityWindow : public Stage {
   const ModelSettings& settings() { return app().scene.scene().model; }
 };
 
+TEST_F(StabilityWindow, AnotherWindowMeasuresAMapOfItsOwn) {
+  open("cube-plane", {"cube[0].particles-per-edge=3"}, "reference", only_the_map());
+  frames_until([&] { return app().stability.cells() != nullptr; });
+  app::KeptState closed = only_the_map();
+  closed.layout.sections["Stability"] = false;
+  open("cube-plane", {"cube[0].particles-per-edge=3"}, "reference", closed);
+  EXPECT_EQ(app().stability.cells(), nullptr);
+}
+
 TEST_F(StabilityWindow, AClickSetsTimeStepAndStiffness) {
   open("cube-plane", {"cube[0].particles-per-edge=3"}, "reference", only_the_map());
   frames_until([&] { return has("stability/map") && !has("stability/measuring"); });
