@@ -344,10 +344,10 @@ Status App::save_shot(Shot wanted, const WindowSize& size, const std::string& pa
 Status App::make_picture(const WindowSize& size, double dt) {
   ASPIC_CHECK(picture.follow());
   pointer.find_hovered();
-  view.pixels_per_unit = static_cast<double>(size.pixel_width) / size.width;
+  view.pixels_per_unit = size.pixels_per_unit();
   picture.rate.count(dt);
   gui_->set_text_size(layout.text_size);
-  gui_->begin(dt);
+  gui_->begin(size, dt);
   view.text_scale = gui_->scale();
   draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, files,
                palette, comparison, comparison_view, closing, help_visible, cells, stability},

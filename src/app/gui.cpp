@@ -127,12 +127,17 @@ void Gui::set_look() {
   const std::string_view font = embedded_fonts().front().text;
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;
+  const auto add = [&](float height, const ImWchar* characters_of) {
+    const float pixels = std::min(std::round(height * static_cast<float>(pixels_per_unit_)), largest_font);
+    ImFont* const made = fonts.AddFontFromMemoryTTF(
+        const_cast<char*>(font.data()), static_cast<int>(font.size()), pixels, &config, characters_of);
+    made->Scale = height / pixels;
+    return made;
+  };
   const float height = std::min(std::round(font_height * static_cast<float>(scale())), largest_font);
-  fonts.AddFontFromMemoryTTF(const_cast<char*>(font.data()), static_cast<int>(font.size()), height, &config,
-                             characters);
+  add(height, characters);
   static constexpr ImWchar plain[] = {0x0020, 0x007e, 0};
-  large_font_ = fonts.AddFontFromMemoryTTF(const_cast<char*>(font.data()), static_cast<int>(font.size()),
-                                           std::min(3.0f * height, largest_font), &config, plain);
+  large_font_ = add(std::min(3.0f * height, largest_font), plain);
 }
 
 Gui::~Gui() {
@@ -185,8 +190,9 @@ bool Gui::takes_mouse() const {
   return ImGui::GetIO().WantCaptureMouse;
 }
 
-void Gui::begin(double dt) {
-  if (wanted_text_size_ != text_size_) {
+void Gui::begin(const WindowSize& size, double dt) {
+  if (wanted_text_size_ != text_size_ || size.pixels_per_unit() != pixels_per_unit_) {
+    pixels_per_unit_ = size.pixels_per_unit();
     set_look();
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
@@ -194,6 +200,9 @@ void Gui::begin(double dt) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(size.width), static_cast<float>(size.height)};
+  io.DisplayFramebufferScale = {static_cast<float>(size.pixels_per_unit()),
+                                static_cast<float>(size.pixel_height) / static_cast<float>(size.height)};
   io.DeltaTime = static_cast<float>(std::max(dt, 1e-4));
   // The mouse as events told it, which may be ahead of where it is by now.
   const ImVec2 mouse{static_cast<float>(mouse_x_), static_cast<float>(mouse_y_)};

@@ -34,6 +34,13 @@ struct Box {
   bool contains(double x, double y) const { return x >= left && x < right && y >= top && y < bottom; }
 };
 
+/// Sizes of a window: in its own units and in pixels.
+struct WindowSize {
+  int width = 0, height = 0;
+  int pixel_width = 0, pixel_height = 0;
+  double pixels_per_unit() const { return static_cast<double>(pixel_width) / width; }
+};
+
 /// Sees the widgets of each picture as they are made: for tests and tools.
 class WidgetWatcher {
  public:
@@ -76,8 +83,8 @@ class Gui {
   bool takes_keyboard() const;
   bool takes_mouse() const;
 
-  /// Begins the panels of a picture, `dt` ≥ 0 after the last [s].
-  void begin(double dt);
+  /// Begins the panels of a picture of a window that is not empty, `dt` ≥ 0 after the last [s].
+  void begin(const WindowSize& size, double dt);
   /// Draws them into the current framebuffer.
   void end();
 
@@ -115,7 +122,7 @@ class Gui {
       : display_scale_(scale), services_(std::move(services)), commands_(commands), watcher_(watcher) {}
   static Box last_item();
   void set_look();
-  double display_scale_, text_size_ = 1.0, wanted_text_size_ = 1.0;
+  double display_scale_, text_size_ = 1.0, wanted_text_size_ = 1.0, pixels_per_unit_ = 1.0;
   WindowServices services_;
   const Commands& commands_;
   WidgetWatcher* watcher_;

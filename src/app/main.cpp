@@ -1,5 +1,5 @@
 // aspic-view: the window, started by `aspic view`.
-#include <array>
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <variant>
@@ -59,7 +59,7 @@ int show(const ViewOptions& view) {
     double wait = 0.0;
     do {
       (*window)->poll(wait);
-      wait = (*app)->wait(since_last());
+      wait = std::max((*app)->wait(since_last()), (*window)->picture_interval() - since_last());
     } while (wait > 0.0 && !(*window)->should_close() && !guard.interrupted());
     if (((*window)->should_close() && !(*app)->may_close()) || (*app)->closes())
       (*window)->set_should_close((*app)->closes());
@@ -85,8 +85,7 @@ int show(const ViewOptions& view) {
   (*window)->set_receiver(nullptr);
   if (!error) {
     KeptState left = (*app)->kept_state();
-    const std::array<int, 4> stood = (*window)->place();
-    left.window = WindowPlace{stood[2], stood[3], std::array<int, 2>{stood[0], stood[1]}};
+    left.window = (*window)->place();
     // What cannot be kept is no reason to fail: nothing of the user's is lost.
     if (const Status saved = save_kept_state(left, kept_path); !saved)
       print_message(worded(saved.error(), FrontEnd::command_line));

@@ -1,15 +1,13 @@
 #include "app/revival.h"
 
-#include <array>
-
 namespace aspic::app {
 
 Result<std::unique_ptr<Window>> replace_window(App& app, std::unique_ptr<Window> window, const Error& why) {
-  const std::array<int, 4> place = window->place();
+  const WindowPlace place = window->place();
   window->set_receiver(nullptr);
   ASPIC_CHECK(app.release_context(why));
   window.reset();
-  auto other = Window::create(place[2], place[3], app.title(), std::array<int, 2>{place[0], place[1]});
+  auto other = Window::create(place.width, place.height, app.title(), place.position);
   if (!other) return other;
   const Status adopted =
       app.adopt_context((*other)->context(), (*other)->content_scale(), (*other)->services());

@@ -26,6 +26,35 @@ EventReceiver* receiver_of(GLFWwindow* window) {
   return *static_cast<EventReceiver**>(glfwGetWindowUserPointer(window));
 }
 
+/// Why there is no display, and what to do.
+std::string no_display() {
+  const std::string_view built = glfwGetVersionString();
+  const bool x = std::getenv("DISPLAY"), wayland = std::getenv("WAYLAND_DISPLAY"),
+             for_x = built.find("X11") != built.npos, for_wayland = built.find("Wayland") != built.npos;
+  if (!x && !wayland) return "there is no display, neither DISPLAY nor WAYLAND_DISPLAY is set";
+  if (!x && !for_wayland)
+    return "GLFW was built for X11 alone, and DISPLAY is not set. Install xwayland or libglfw3-wayland";
+  if (!wayland && !for_x)
+    return "GLFW was built for Wayland alone, and WAYLAND_DISPLAY is not set. Install libglfw3";
+  return "the display does not answer";
+}
+
+/// Where the window is on the screen; nothing under Wayland, which keeps that to itself.
+std::optional<std::array<int, 2>> position_of(GLFWwindow* window) {
+  std::array<int, 2> position = {};
+  glfwGetError(nullptr);
+  glfwGetWindowPos(window, &position[0], &position[1]);
+  if (glfwGetError(nullptr) != GLFW_NO_ERROR) return std::nullopt;
+  return position;
+}
+
+/// Of the first monitor's pictures [s].
+double refresh_interval() {
+  GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  return 1.0 / (mode && mode->refreshRate > 0 ? mode->refreshRate : 60);
+}
+
 /// Whether enough of a window there can be seen to take hold of it.
 bool on_a_monitor(const std::array<int, 2>& position) {
   int count = 0;
@@ -46,12 +75,9 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
                                                const std::optional<std::array<int, 2>>& position) {
   const FlushDenormals flush;  // the driver's threads inherit it
   std::unique_ptr<Window> w(new Window);
-  if (!glfwInit()) {
-    const bool named = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
-    return fail(ErrorCode::no_device, "No window can be opened: {} ({}). {}",
-                named ? "the display does not answer" : "there is no display, DISPLAY is not set",
-                last_error(), instead);
-  }
+  if (!glfwInit())
+    return fail(ErrorCode::no_device, "No window can be opened: {} ({}). {}", no_display(), last_error(),
+                instead);
   w->initialised_ = true;
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -76,7 +102,9 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   if (position && on_a_monitor(*position)) glfwSetWindowPos(w->window_, (*position)[0], (*position)[1]);
   glfwShowWindow(w->window_);
   glfwMakeContextCurrent(w->window_);
-  glfwSwapInterval(1);
+  // Under Wayland a swap that waits for the display waits for as long as the window is hidden.
+  if (!position_of(w->window_)) w->picture_interval_ = refresh_interval();
+  glfwSwapInterval(w->picture_interval_ > 0.0 ? 0 : 1);
   auto context = gl::Context::adopt_current(
       glfwGetProcAddress, {[window = w->window_] { return glfwGetCurrentContext() == window; },
                            [window = w->window_] { glfwMakeContextCurrent(window); }});
@@ -139,11 +167,11 @@ WindowSize Window::size() const {
   return size;
 }
 
-std::array<int, 4> Window::place() const {
+WindowPlace Window::place() const {
   if (full_screen_) return place_;
-  std::array<int, 4> place = {};
-  glfwGetWindowPos(window_, &place[0], &place[1]);
-  glfwGetWindowSize(window_, &place[2], &place[3]);
+  WindowPlace place;
+  glfwGetWindowSize(window_, &place.width, &place.height);
+  place.position = position_of(window_);
   return place;
 }
 
@@ -181,7 +209,8 @@ void Window::show_picture() {
 
 void Window::toggle_full_screen() {
   if (full_screen_) {
-    glfwSetWindowMonitor(window_, nullptr, place_[0], place_[1], place_[2], place_[3], GLFW_DONT_CARE);
+    const auto [x, y] = place_.position.value_or(std::array<int, 2>{});
+    glfwSetWindowMonitor(window_, nullptr, x, y, place_.width, place_.height, GLFW_DONT_CARE);
     full_screen_ = false;
     return;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/gui.h"
+#include "app/kept_state.h"
 #include "base/result.h"
 #include "gpu/context.h"
 
@@ -28,12 +29,6 @@ class EventReceiver {
   virtual void refresh() = 0;
 };
 
-/// Sizes of a window: in its own units and in pixels.
-struct WindowSize {
-  int width = 0, height = 0;
-  int pixel_width = 0, pixel_height = 0;
-};
-
 /// One window; one at a time in a process.
 class Window {
  public:
@@ -51,8 +46,8 @@ class Window {
   void set_receiver(EventReceiver* receiver) { receiver_ = receiver; }
   WindowServices services();
   WindowSize size() const;
-  /// Left, top, width and height [screen units], of a full screen those to come back to.
-  std::array<int, 4> place() const;
+  /// Of a full screen that to come back to. Wayland has no positions.
+  WindowPlace place() const;
   double content_scale() const;
   bool should_close() const;
   void set_should_close(bool close);
@@ -60,6 +55,8 @@ class Window {
   /// Hands over events; waits for one up to `wait` seconds where that is above 0.
   void poll(double wait);
   void show_picture();
+  /// How far pictures are apart at least [s]; 0: show_picture() waits for the display.
+  double picture_interval() const { return picture_interval_; }
   bool full_screen() const { return full_screen_; }
   void toggle_full_screen();
 
@@ -68,7 +65,8 @@ class Window {
   void connect();
   GLFWwindow* window_ = nullptr;
   bool initialised_ = false, full_screen_ = false;
-  std::array<int, 4> place_ = {};  // to come back to from full screen
+  double picture_interval_ = 0.0;
+  WindowPlace place_;  // to come back to from full screen
   std::shared_ptr<gl::Context> context_;
   EventReceiver* receiver_ = nullptr;
 };

@@ -204,6 +204,11 @@ class Events : public Stage {
   app::Box view_;
 };
 
+TEST_F(Events, NamesTheMissingDisplay) {
+  EXPECT_THAT(output_of("env -u DISPLAY -u WAYLAND_DISPLAY " ASPIC_VIEW " 2>&1"),
+              testing::HasSubstr("neither DISPLAY nor WAYLAND_DISPLAY is set"));
+}
+
 TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
   app::KeptState kept = one_picture_a_step(find_film_format("png"));
   kept.layout.text_size = 0.75;  // the terrain's shapes are in sight below the scenes

@@ -1,6 +1,9 @@
 // How the window is laid out: text, widths, what is remembered, and that every control explains itself.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <imgui.h>
+
+#include <cmath>
 
 #include "app/stage.h"
 #include "aspic/scene.h"
@@ -30,6 +33,33 @@ class Layout : public Stage {
   }
   Box box(const std::string& name) { return widgets().at(name); }
 };
+
+/// A display with more than a pixel for each window unit, as under Wayland.
+class DenseLayout : public Layout, public testing::WithParamInterface<double> {
+ protected:
+  std::array<int, 2> window_size() const override { return {960, 540}; }
+};
+
+TEST_P(DenseLayout, HasTheSamePlacesAndSharperText) {
+  open("cube-plane", {}, "reference", with_sections(false));
+  const std::map<std::string, Box> before = widgets();
+  const float font = ImGui::GetIO().Fonts->Fonts[0]->FontSize;
+  pixels_per_unit = GetParam();
+  resize(static_cast<int>(960 * GetParam()), static_cast<int>(540 * GetParam()));
+  frames(2);
+  EXPECT_EQ(ImGui::GetIO().Fonts->Fonts[0]->FontSize, std::round(font * static_cast<float>(GetParam())));
+  EXPECT_EQ(app().view.pixels_per_unit, GetParam());
+  ASSERT_EQ(widgets().size(), before.size());
+  for (const auto& [name, was] : before) {
+    EXPECT_NEAR(box(name).left, was.left, 3.0) << name;
+    EXPECT_NEAR(box(name).top, was.top, 3.0) << name;
+    EXPECT_NEAR(box(name).right, was.right, 3.0) << name;
+    EXPECT_NEAR(box(name).bottom, was.bottom, 3.0) << name;
+  }
+  click("section/Contact");
+  EXPECT_TRUE(has("contact.friction")) << "the mouse is where it is";
+}
+INSTANTIATE_TEST_SUITE_P(Layout, DenseLayout, testing::Values(1.5, 2.0));
 
 TEST_F(Layout, EveryControlExplainsItself) {
   open("cube-plane", {}, "reference", with_sections(true));

@@ -3,6 +3,7 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/revival.h"
@@ -85,7 +86,10 @@ void Stage::frame(double apart) {
                                  {GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT}})
     if ((held_modifiers_ & bit) != 0) app_->key(key, GLFW_RELEASE, 0);
   held_modifiers_ = 0;
-  const Status drawn = app_->frame(window_->size(), apart);
+  app::WindowSize size = window_->size();
+  size.width = static_cast<int>(std::lround(size.pixel_width / pixels_per_unit));
+  size.height = static_cast<int>(std::lround(size.pixel_height / pixels_per_unit));
+  const Status drawn = app_->frame(size, apart);
   ASSERT_TRUE(drawn.ok()) << drawn.error().message();
   window_->show_picture();
 }

@@ -96,6 +96,8 @@ class Stage : public ::testing::Test {
   double middle_x() { return app_->view.box.centre_x(); }
   double middle_y() { return app_->view.box.centre_y(); }
 
+  /// Pixels of a window unit, as on a dense display under Wayland; the window has as many pixels as before.
+  double pixels_per_unit = 1.0;
   /// Another size of the window; takes two pictures.
   void resize(int width, int height);
   /// Pixels of the window, RGB, rows from the bottom.
