@@ -85,6 +85,7 @@ class Views : public Stage, public ::testing::WithParamInterface<View> {
 TEST_P(Views, AreTheRenderersPictures) {
   const View& view = GetParam();
   open(view.scene, {}, "reference");
+  app().messages.dismiss();  // warnings of the scene
   press(GLFW_KEY_TAB);
   frames(30);
   const Image start = image();
