@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,17 +37,29 @@ struct Measures {
 /// The first figure that is not finite, in words such as `the kinetic energy`; nothing if all are.
 ASPIC_API std::optional<std::string_view> first_not_finite(const Measures& measures);
 
-/// Measures a state of the model. Pinned particles count for the potential energies and the height; they do
-/// not move, so they have no part in kinetic energy, momentum and speed. Balls count once they are launched.
-/// The state must have the model's numbers of particles and balls. `inputs`: those that hold, for actuators
-/// that read channels.
+/// Measures a state of the model, which has its numbers of particles and balls. Pinned particles count for
+/// potential energies and height, and balls once launched. `inputs`: those that hold, for actuators.
 ASPIC_API Measures measure(const Model& model, const State& state, const Inputs& inputs = {});
+/// The same without elastic energy, which stays 0: looks at neither springs nor contacts.
+ASPIC_API Measures measure_motion(const Model& model, const State& state);
+
+/// Measures states of one model, with one search for contacts for all of them, where measure() makes one for
+/// each. Calls may come from any thread, one at a time.
+class ASPIC_API Meter {
+ public:
+  explicit Meter(const Model& model);  ///< which must outlive it
+  Meter(Meter&&) noexcept;
+  ~Meter();
+  Measures measure(const State& state, const Inputs& inputs = {});  ///< as the function does
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 /// The work of actuators over a run, added up from its states [J]: −∫ Σ k(L − r) dr by the trapezoidal rule
-/// from each state to the next, with the rest lengths that measure() takes. However many steps lie between
-/// two states, it is the change of the elastic energy less the work of particles on springs, ∫ Σ k(L − r) dL
-/// by the same rule, and exact where lengths hold still; else its error is of second order in the time
-/// between. Calls may come from any thread, one at a time.
+/// from each state to the next, with the rest lengths that measure() takes; exact where lengths hold still,
+/// else its error is of second order in the time between. Calls may come from any thread, one at a time.
 class ASPIC_API ActuatorWork {
  public:
   /// The work from the first state that was added to this one, the next of the run; negative where springs
@@ -65,12 +78,10 @@ class ASPIC_API ActuatorWork {
   double sum_ = 0.0;
 };
 
-/// The elastic energy that springs would hold at the largest |w| of their signals, were the body kept as it
-/// is at rest [J]: what a cycle can do at most. 0 without actuators.
+/// What springs would hold at the largest |w| of their signals, the body kept as at rest [J]; 0 without any.
 ASPIC_API double largest_actuation_energy(const Model& model);
 
-/// What a state means for its particles and springs, in double precision whatever the state's own. By
-/// particle:
+/// What particles and springs do in a state, in double precision whatever its own. By particle:
 struct StateQuantities {
   std::vector<double> speed;        ///< |v| [m/s]
   std::vector<double> mean_strain;  ///< mean |L/r − 1| of its springs, as pictures show it; 0 without any
@@ -139,22 +150,12 @@ enum class StabilityEffort {
   thorough  ///< dense solves of bodies with up to 600 degrees of freedom: for reports
 };
 
-/// Called now and then on the caller's thread while limits are computed, with the share of the work that is
-/// done at most; false ends the work, and what it had not reached is bounded instead.
+/// Called now and then on the caller's thread with the share of the work that is done at most; false ends
+/// the work, and what it had not reached is bounded instead.
 using StabilityWatch = std::function<bool(double)>;
 
-/// The smallest limit of all bodies. Springs are linearised at rest; of actuated ones with their shortest
-/// rest length, by a bound that is not exact.
-///
-/// Where all springs of a body have one ratio of damping to stiffness, its modes are those of one operator
-/// with eigenvalues α in (0, α_max], each giving λ² + (αc/m)λ + αk/m = 0: the limit is the minimum over that
-/// interval, exact where α_max itself decides. Otherwise symplectic Euler's limit is the h with λ_max(h²K +
-/// 2hC) = 4, exact; the others' is exact by a dense solve where the body is small, and else the minimum over
-/// all (κ, γ) that Rayleigh quotients of K and C can take, which the true limit never falls below.
-///
-/// The work is bounded: a budget of spring evaluations, about a second's for quick and ten seconds' for
-/// thorough. Bodies for which nothing is left take part with Gershgorin bounds on κ and γ: then the limit is
-/// not exact, but the true one is not smaller. 0, not exact: k/m is beyond double precision.
+/// The smallest limit of all bodies, springs linearised at rest: exact, or a bound that the true limit is not
+/// below (src/analysis/stability.h). 0, not exact: k/m is beyond double precision.
 ASPIC_API StabilityLimit stability_limit(const Model& model, Integrator integrator,
                                          StabilityEffort effort = StabilityEffort::thorough,
                                          const StabilityWatch& watch = {});
@@ -165,8 +166,7 @@ ASPIC_API std::vector<StabilityLimit> stability_limits(const Model& model,
                                                        StabilityEffort effort = StabilityEffort::thorough,
                                                        const StabilityWatch& watch = {});
 
-/// A sentence where the model's time step is above the estimate of its method's largest stable one; else
-/// empty. Of the effort quick.
+/// A sentence where the time step is above the estimated largest stable one (of effort quick); else empty.
 ASPIC_API std::string unstable_step_warning(const Model& model, const StabilityWatch& watch = {});
 
 }  // namespace aspic

@@ -207,10 +207,12 @@ class Readable(Unshared):
     @property
     def measures(self) -> Measures:
         """Energies, momentum, largest speed and lowest height."""
-        import numpy as np
+        return _measures(self._core.measures())
 
-        kinetic, elastic, gravitational, momentum, speed, height = self._core.measures()
-        return Measures(Energy(kinetic, elastic, gravitational), np.array(momentum), speed, height)
+    @property
+    def _motion(self) -> Measures:
+        """The same but for elastic energy, which is 0: neither springs nor contacts are looked at."""
+        return _measures(self._core.motion())
 
     @property
     def energy(self) -> Energy:
@@ -220,7 +222,7 @@ class Readable(Unshared):
     @property
     def momentum(self) -> NDArray[np.float64]:
         """Σ m v of what is not pinned, (3,) [N·s]."""
-        return self.measures.momentum
+        return self._motion.momentum
 
     @property
     def quantities(self) -> Quantities:
@@ -242,6 +244,13 @@ class Readable(Unshared):
         changed[where] = floats(numbers, changed[where].shape, field, not self._core.doubles)
         state.write(field, changed)
         self._core.load(state._core, None)
+
+
+def _measures(row: tuple[float, float, float, tuple[float, float, float], float, float]) -> Measures:
+    import numpy as np
+
+    kinetic, elastic, gravitational, momentum, speed, height = row
+    return Measures(Energy(kinetic, elastic, gravitational), np.array(momentum), speed, height)
 
 
 def _overlaps(out: Any) -> bool:

@@ -294,13 +294,8 @@ class BatchTrajectory(Series):
         return self._dataset(("instance", "sample"), self._flat(), coordinates)
 
 
-# What may be recorded: of a state's measures, of all particles or of a body.
-_OF_ALL: dict[str, Callable[[Measures], Any]] = {
-    "energy": lambda m: m.energy,
-    "momentum": lambda m: m.momentum,
-    "max-speed": lambda m: m.max_speed,
-    "min-height": lambda m: m.min_height,
-}
+# What may be recorded: of a state's measures without its springs, of all particles or of a body.
+_OF_MOTION = ("momentum", "max-speed", "min-height")
 _ARRAYS = ("positions", "velocities")
 _OF_BALLS = ("ball-positions", "ball-velocities", "ball-angular-velocities")
 # In the order in which the library tells them.
@@ -315,8 +310,12 @@ class _Sample:
         self._simulation = simulation
 
     @functools.cached_property
-    def measures(self) -> Measures:
-        return self._simulation.measures
+    def energy(self) -> Energy:
+        return self._simulation.energy
+
+    @functools.cached_property
+    def motion(self) -> Measures:
+        return self._simulation._motion
 
     @functools.cached_property
     def positions(self) -> Any:
@@ -366,9 +365,10 @@ class Recorder:
         body, _, what = name.rpartition(".")
         what = what.replace("_", "-")
         if not body:
-            if what in _OF_ALL:
-                measure = _OF_ALL[what]
-                return lambda s: measure(s.measures)
+            if what == "energy":
+                return lambda s: s.energy
+            if what in _OF_MOTION:
+                return lambda s: getattr(s.motion, what.replace("-", "_"))
             if what in _ARRAYS:
                 return lambda s: getattr(s, what)
             if what in _OF_BALLS:
@@ -390,7 +390,7 @@ class Recorder:
             if what == "momentum":
                 return lambda s: weighted(masses, s.velocities[particles])
             return lambda s: weighted(masses, s.positions[particles]) / float(masses.sum())
-        known = ["motion", *_OF_ALL, *_ARRAYS, "centre-of-mass", "hash", "actuator-work", *_QUANTITIES, *_OF_BALLS]
+        known = ["motion", "energy", *_OF_MOTION, *_ARRAYS, "centre-of-mass", "hash", "actuator-work", *_QUANTITIES, *_OF_BALLS]
         raise UsageError(
             f"{name!r} cannot be recorded; {', '.join(known)} can, and of a body "
             f"{', '.join(f'{self._example()}.{part}' for part in _ARRAYS + _OF_BODIES)}"

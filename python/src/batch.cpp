@@ -7,6 +7,7 @@ namespace {
 
 void set_constants(Contents& contents, std::size_t instance, Scene scene) {
   check(contents.batch.set_constants(instance, take(make_model(scene.model))));
+  contents.meters.erase(instance);
   contents.scenes[instance] = std::make_shared<const Scene>(std::move(scene));
 }
 
@@ -122,8 +123,14 @@ State Instance::state() {
 
 Measures Instance::measures() {
   return batch_.alone([&](Contents& contents) {
-    return measure(*take(contents.batch.model(number_)), take(contents.batch.state(number_)),
-                   contents.inputs[number_]);
+    Meter& meter = contents.meters.try_emplace(number_, *take(contents.batch.model(number_))).first->second;
+    return meter.measure(take(contents.batch.state(number_)), contents.inputs[number_]);
+  });
+}
+
+Measures Instance::motion() {
+  return batch_.alone([&](Contents& contents) {
+    return measure_motion(*take(contents.batch.model(number_)), take(contents.batch.state(number_)));
   });
 }
 

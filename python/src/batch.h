@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <future>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -27,6 +28,7 @@ struct Contents {
   aspic::Batch batch;
   std::vector<std::shared_ptr<const Scene>> scenes;
   std::vector<Inputs> inputs;
+  std::map<std::size_t, Meter> meters = {};  ///< of those whose energies were asked for
 };
 
 /// (instances, vectors, 3).
@@ -94,6 +96,8 @@ class Instance {
   bool doubles() const { return false; }
   State state();
   Measures measures();
+  /// Without elastic energy, as measure_motion().
+  Measures motion();
   std::optional<double> add_work(ActuatorWork& work);
   StateQuantities quantities();
   std::uint64_t read_into(const StateView& view);

@@ -81,6 +81,9 @@ void bind_reading(nb::class_<T>& bound) {
       .def(
           "measures", [](T& t) { return row_of(t.measures()); },
           "Kinetic, elastic, gravitational, momentum, largest speed, lowest height.")
+      .def(
+          "motion", [](T& t) { return row_of(t.motion()); },
+          "The same with an elastic energy of 0: neither springs nor contacts are looked at.")
       .def("add_work", &T::add_work, nb::arg("work"), "The work of actuators so far.")
       .def(
           "quantities", [](T& t) { return arrays_of(t.quantities()); },

@@ -99,7 +99,14 @@ const State& Simulation::state_alone() {
 }
 
 Measures Simulation::measures() {
-  return alone([&] { return measure(*model_, state_alone(), backend_.solver->inputs()); });
+  return alone([&] {
+    if (!meter_) meter_.emplace(*model_);
+    return meter_->measure(state_alone(), backend_.solver->inputs());
+  });
+}
+
+Measures Simulation::motion() {
+  return alone([&] { return measure_motion(*model_, state_alone()); });
 }
 
 std::optional<double> Simulation::add_work(ActuatorWork& work) {
@@ -320,6 +327,7 @@ void Simulation::update(const std::vector<std::string>& overrides) {
     watch_ = std::move(watch);
     driven_ = true;
   });
+    meter_.reset();
 }
 
 std::optional<ConstVectors> Simulation::begin_view(std::size_t field) {

@@ -85,6 +85,8 @@ class Simulation {
   void load(const State& state, const InputLog* log);
   Measures measures();
   /// Of actuators up to this state: ActuatorWork::add().
+  /// Without elastic energy, as measure_motion().
+  Measures motion();
   std::optional<double> add_work(ActuatorWork& work);
   StateQuantities quantities();
   /// A state with what belongs to it, for f(model, state, inputs), without the GIL.
@@ -158,6 +160,7 @@ class Simulation {
   Backend backend_;
   InputLog log_;
   std::uint64_t step_ = 0;
+  std::optional<Meter> meter_;  // of model_, once energies were asked for
   std::optional<RunWatch> watch_;  // of model_
   bool driven_ = false;            // states were set, or constants changed
   std::vector<Warning> warnings_;  // not told yet

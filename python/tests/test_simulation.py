@@ -59,6 +59,39 @@ def test_what_does_not_hold_is_said_before_the_first_step_and_when_it_comes_abou
         sim.run(0.3)
 
 
+def test_momentum_and_heights_look_for_no_contacts(monkeypatch: pytest.MonkeyPatch) -> None:
+    sim = aspic.Simulation("cubes-stack", "cpu")
+    full, motion = sim.measures, sim._motion
+    assert np.array_equal(motion.momentum, full.momentum) and motion[2:] == full[2:]
+    monkeypatch.setattr(type(sim), "measures", property(lambda _: pytest.fail("energies were computed")))
+    assert np.array_equal(sim.momentum, full.momentum)
+    path = sim.run(0.1, every=0.05, record=["momentum", "max-speed", "min-height"])
+    assert path["max-speed"].shape == (3,) and path["min-height"][0] == full.min_height
+
+
+def test_energies_of_one_simulation_are_those_of_a_fresh_one() -> None:
+    sim = aspic.Simulation("cubes-stack", "cpu")
+    states = []
+    for count in (0, 700, 40, 1):
+        sim.step(count)
+        states.append((sim.save(), sim.energy))
+    # Back in time, and with other constants.
+    for state, energy in reversed(states):
+        sim.load(state)
+        assert sim.energy == energy
+        fresh = aspic.Simulation("cubes-stack", "cpu")
+        fresh.load(state)
+        assert fresh.energy == energy
+    sim.load(states[-1][0])
+    sim.update({"contact.body-gap": 0.3})
+    assert sim.energy.elastic > states[-1][1].elastic
+    batch = aspic.Batch("cubes-stack", count=2)
+    batch.step(700)
+    assert batch[1].energy == states[1][1] == batch[1].energy
+    batch[1].update({"contact.body-gap": 0.3})
+    assert batch[1].energy.elastic > states[1][1].elastic
+
+
 def test_all_backends_give_the_same_bits(scene: aspic.Scene) -> None:
     sims = [simulation(scene, backend) for backend in ("reference", "cpu", "gpu")]
     assert sims[0].compare(sims[1], 150) is None

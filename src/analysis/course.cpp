@@ -11,7 +11,7 @@
 
 namespace aspic {
 
-Course::Course(const Model& model) : model_(model), up_{0.0, 1.0, 0.0} {
+Course::Course(const Model& model) : model_(model), meter_(model), up_{0.0, 1.0, 0.0} {
   const Vec3& gravity = model.simulation.gravity;
   if (const double g = length(gravity); g > 0.0) up_ = -gravity / g;
 }
@@ -37,7 +37,7 @@ void Course::take(const State& state) {
   assert(check_sizes(model_, state));
   CourseSample sample;
   sample.time = static_cast<double>(state.step) * model_.simulation.timestep;
-  sample.measures = measure(model_, state);
+  sample.measures = meter_.measure(state);
   Vec3 moment;
   double mass = 0.0, lowest = std::numeric_limits<double>::infinity();
   const auto add = [&](const Vec3& x, double m) {

@@ -47,6 +47,7 @@ class Course {
   bool touches(const State& state) const;
 
   const Model& model_;
+  Meter meter_;
   Vec3 up_;
   std::vector<CourseSample> samples_;
   std::optional<double> contact_time_;

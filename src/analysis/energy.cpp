@@ -2,6 +2,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "aspic/analysis.h"
@@ -11,24 +12,29 @@
 
 namespace aspic {
 
-namespace {
-
-/// What pushes between bodies hold [J].
-double push_energy(const Model& model, const State& state) {
+struct Meter::Parts {
   using Contact = reference::BodyContact<double>;
-  Contact contact(model);
-  const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
-  const Contact::Particles at = {reference::components(x.data()), reference::components(v.data()), 3};
-  return contact.begin_step(state.step, at) && contact.find(at) ? contact.energy() : 0.0;
-}
+  const Model& model;
+  std::optional<Contact> contact;  // from the first state on, where bodies touch
 
-}  // namespace
+  /// What pushes between bodies hold [J].
+  double push_energy(const State& state) {
+    if (!contact) contact.emplace(model);
+    const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
+    const Contact::Particles at = {reference::components(x.data()), reference::components(v.data()), 3};
+    return contact->begin_step(state.step, at) && contact->find(at) ? contact->energy() : 0.0;
+  }
+};
+
+Meter::Meter(const Model& model) : parts_(new Parts{model, {}}) {}
+Meter::Meter(Meter&&) noexcept = default;
+Meter::~Meter() = default;
 
 double Measures::total() const {
   return kinetic + elastic + gravitational;
 }
 
-Measures measure(const Model& model, const State& state, const Inputs& inputs) {
+Measures measure_motion(const Model& model, const State& state) {
   assert(check_sizes(model, state));
   Measures m;
   double fastest_squared = 0.0;
@@ -53,6 +59,12 @@ Measures measure(const Model& model, const State& state, const Inputs& inputs) {
   }
   m.max_speed = std::sqrt(fastest_squared);
   if (std::isfinite(lowest)) m.min_height = lowest;
+  return m;
+}
+
+Measures Meter::measure(const State& state, const Inputs& inputs) {
+  const Model& model = parts_->model;
+  Measures m = measure_motion(model, state);
   const std::vector<double> r = rest_lengths(model, state.step, 0.0, inputs.channels);
   for (const Spring& spring : springs_of(model)) {
     const SpringClass& c = model.spring_classes[spring.spring_class];
@@ -62,10 +74,14 @@ Measures measure(const Model& model, const State& state, const Inputs& inputs) {
     m.elastic += 0.5 * c.stiffness * stretch * stretch;
   }
   if (bodies_touch(model)) {
-    m.contact = push_energy(model, state);
+    m.contact = parts_->push_energy(state);
     m.elastic += *m.contact;
   }
   return m;
+}
+
+Measures measure(const Model& model, const State& state, const Inputs& inputs) {
+  return Meter(model).measure(state, inputs);
 }
 
 std::optional<double> ActuatorWork::add(const Model& model, const State& state, const Inputs& inputs) {

@@ -92,7 +92,10 @@ Result<Recording> Recording::plan(const std::vector<SharedModel>& models, double
     record.time.resize(rows);
     if (quantities.centre_of_mass) record.centre_of_mass.resize(3 * rows);
     if (quantities.momentum) record.momentum.resize(3 * rows);
-    if (quantities.energies) record.energy.resize(3 * rows);
+    if (quantities.energies) {
+      record.energy.resize(3 * rows);
+      for (const SharedModel& model : models) plan.meters_.emplace_back(*model);
+    }
     if (quantities.actuator_work) {
       record.actuator_work.resize(rows);
       plan.works_.resize(record.instances);
@@ -159,7 +162,8 @@ void Recording::write(const Unit& unit, std::size_t slot, std::size_t instance, 
     put(record_.centre_of_mass, centre.x, centre.y, centre.z);
   }
   if (quantities_.momentum || quantities_.energies) {
-    const Measures figures = measure(*model, state, unit.inputs(slot));
+    const Measures figures = quantities_.energies ? meters_[instance].measure(state, unit.inputs(slot))
+                                                  : measure_motion(*model, state);
     if (quantities_.momentum)
       put(record_.momentum, figures.momentum.x, figures.momentum.y, figures.momentum.z);
     if (quantities_.energies) put(record_.energy, figures.kinetic, figures.elastic, figures.gravitational);

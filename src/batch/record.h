@@ -32,6 +32,7 @@ class Recording {
 
   BatchRecord record_;
   BatchQuantities quantities_;
+  std::vector<Meter> meters_;         ///< of each instance, where energies are recorded
   std::vector<ActuatorWork> works_;   ///< of each instance, where they are recorded
   std::vector<double> times_;         ///< from the start [s]
   std::vector<std::uint32_t> first_;  ///< of each instance's body whose positions are recorded

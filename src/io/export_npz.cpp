@@ -159,13 +159,13 @@ void add_state(Columns& columns, const Sample& sample) {
   columns.add("tension", {q.tension.size()}, as_type<T>(q.tension));
 }
 
-void add_sample(Columns& columns, const Sample& sample, ActuatorWork& actuators) {
+void add_sample(Columns& columns, const Sample& sample, Meter& meter, ActuatorWork& actuators) {
   const State& state = sample.state;
   columns.add("steps", {}, std::vector{static_cast<std::int64_t>(state.step)});
   columns.add("time", {}, std::vector{static_cast<double>(state.step) * sample.model.simulation.timestep});
   state.precision == Precision::single ? add_state<float>(columns, sample)
                                        : add_state<double>(columns, sample);
-  const Measures m = measure(sample.model, state, inputs_of(sample));
+  const Measures m = meter.measure(state, inputs_of(sample));
   columns.add("energy.kinetic", {}, std::vector{m.kinetic});
   columns.add("energy.elastic", {}, std::vector{m.elastic});
   columns.add("energy.gravitational", {}, std::vector{m.gravitational});
@@ -268,7 +268,8 @@ class NpzSeries final : public MotionSink {
 
  private:
   Status add(const Sample& sample) override {
-    add_sample(columns_, sample, actuators_);
+    if (!meter_) meter_.emplace(sample.model);
+    add_sample(columns_, sample, *meter_, actuators_);
     return columns_.end_sample();
   }
   Status complete(const Sample& last) override {
@@ -288,6 +289,7 @@ class NpzSeries final : public MotionSink {
   std::string scene_;
 };
 
+  std::optional<Meter> meter_;  // from the first sample on
 }  // namespace
 
 Result<std::unique_ptr<StateSink>> open_npz(const std::string& path, std::uint64_t every, Overwrite overwrite,

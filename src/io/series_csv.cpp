@@ -29,7 +29,8 @@ Status SeriesWriter::add(const Sample& sample) {
   if (has_row_ && last_step_ == step) return {};
   const double time = static_cast<double>(step) * sample.model.simulation.timestep;
   const Inputs& inputs = inputs_of(sample);
-  return add(step, time, measure(sample.model, sample.state, inputs), sample.solves,
+  if (!meter_) meter_.emplace(sample.model);
+  return add(step, time, meter_->measure(sample.state, inputs), sample.solves,
              work_.add(sample.model, sample.state, inputs));
 }
 

@@ -57,6 +57,7 @@ class SeriesWriter {
   bool has_solves_ = false, has_contact_ = false, has_work_ = false;
   SolveStatistics before_;  // as of the last row
   ActuatorWork work_;
+  std::optional<Meter> meter_;  // from the first row on
   std::optional<double> last_work_;
   bool has_row_ = false;
   std::uint64_t last_step_ = 0;

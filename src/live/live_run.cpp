@@ -32,7 +32,8 @@ LiveRun::LiveRun(Scene scene, std::unique_ptr<Solver> solver)
     : scene_(std::move(scene)),
       solver_(std::move(solver)),
       names_(input_names(solver_->model())),
-      numbers_(numbers_of(solver_->model())) {}
+      numbers_(numbers_of(solver_->model())),
+      meter_(std::make_unique<Meter>(solver_->model())) {}
 
 Result<LiveRun> LiveRun::create(std::string_view key_lines) {
   ASPIC_TRY(auto scene, with_key_lines({}, key_lines));
@@ -54,6 +55,7 @@ Status LiveRun::change(std::string_view key_lines, std::vector<double> channels)
   inputs_ = std::move(inputs);
   scene_ = std::move(scene);
   solver_ = std::move(solver);
+  meter_ = std::make_unique<Meter>(model());
   (void)actuators_.add(model(), state, inputs_);
   return {};
 }
@@ -75,7 +77,7 @@ Status LiveRun::take() {
   ASPIC_TRY(const State state, solver_->state());
   ASPIC_TRY(step_, solver_->read_into(places()));
   hash_ = state_hash_text(state);
-  measures_ = measure(model(), state, inputs_);
+  measures_ = meter_->measure(state, inputs_);
   work_ = actuators_.add(model(), state, inputs_);
   changes_.clear();
   RestLengths lengths(model());

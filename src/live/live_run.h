@@ -66,6 +66,7 @@ class LiveRun {
   std::string hash_;
   Measures measures_;
   std::vector<float> changes_;
+  std::unique_ptr<Meter> meter_;  // of the solver's model
   ActuatorWork actuators_;
   std::optional<double> work_;
 };

@@ -117,7 +117,10 @@ Status PageWriter::begin(const PageSettings& settings, std::span<const PageRun> 
                        {},
                        {},
                        {},
-                       {}});
+                       {},
+                       {},
+                       {},
+                       Meter(model)});
     models_.push_back(&model);
   }
   ASPIC_CHECK(write(document_head(printable_line(scene.name), facts, settings.live)));
@@ -136,7 +139,7 @@ Status PageWriter::add(std::span<const State* const> states, std::span<const Inp
     positions_ += state.position.size() + state.ball_position.size();
     Tracks& tracks = tracks_[i];
     const Inputs holding = i < inputs.size() ? inputs[i] : Inputs();
-    const Measures m = measure(*models_[i], state, holding);
+    const Measures m = tracks.meter.measure(state, holding);
     if (const auto bad = first_not_finite(m))
       return fail(ErrorCode::diverged, "{}: {} of step {} is not a finite number.", printable_line(path()),
                   *bad, state.step);

@@ -75,7 +75,8 @@ class PageWriter {
     std::vector<double> kinetic, elastic, gravitational, work;  // [J], by picture; of actuators where it has
     std::vector<std::uint64_t> steps;
     std::vector<std::string> hashes = {};  // of a live page
-    ActuatorWork actuators = {};
+    ActuatorWork actuators;
+    Meter meter;
   };
   Status add_live(const State& state);
   PageWriter(AtomicFile file, Deflater deflater) : file_(std::move(file)), deflater_(std::move(deflater)) {}

@@ -41,19 +41,6 @@ double launched(const Model& model, std::uint64_t after, std::uint64_t until) {
   return sum;
 }
 
-/// Kinetic and gravitational energy of a state [J], without its springs.
-double motion_energy(const Model& model, const State& state) {
-  double sum = 0.0;
-  const Vec3& g = model.simulation.gravity;
-  for (std::size_t i = 0; i < state.position.size(); ++i)
-    sum += model.mass[i] * (0.5 * dot(state.velocity[i], state.velocity[i]) - dot(g, state.position[i]));
-  for (std::size_t b = 0; b < state.ball_position.size(); ++b)
-    if (model.balls[b].launched(state.step))
-      sum += model.balls[b].mass *
-             (0.5 * dot(state.ball_velocity[b], state.ball_velocity[b]) - dot(g, state.ball_position[b]));
-  return sum;
-}
-
 }  // namespace
 
 std::string Diagnostic::sentence() const {
@@ -188,7 +175,7 @@ void RunWatch::Parts::look_for_energy(const Model& model, const State& state,
   }
   const double before = first->total + launched(model, first->step, state.step);
   // Energy that is only in springs shows as soon as it moves something.
-  if (!(motion_energy(model, state) > before)) return;
+  if (!(measure_motion(model, state).total() > before)) return;
   const Measures now = measure(model, state);
   const double rise = now.total() - before;
   if (!(rise > energy_share * (now.kinetic + now.elastic))) return;

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "aspic/analysis.h"
 #include "model/model.h"
-#include "support/model_building.h"
+#include "support/pile.h"
 
 namespace aspic {
 namespace {
@@ -103,6 +105,59 @@ TEST(Energy, BallsCountOnceTheyAreLaunched) {
   EXPECT_EQ(m.momentum, (Vec3{8.0, 0.0, 0.0}));
   EXPECT_EQ(m.max_speed, 4.0);
   EXPECT_EQ(m.min_height, 3.0);
+}
+
+TEST(Energy, MotionNeedsNeitherSpringsNorContacts) {
+  ModelSettings settings = test::pile(Integrator::symplectic_euler, ContactModel::coulomb);
+  Model model = test::build(settings);
+  const State state = initial_state(model, Precision::double_);
+  const Measures all = measure(model, state);
+  ASSERT_TRUE(all.contact);
+  // Without springs and surfaces.
+  model.listed_springs.clear();
+  model.spring_classes.clear();
+  model.bodies.clear();
+  const Measures motion = measure_motion(model, state);
+  EXPECT_FALSE(motion.contact);
+  EXPECT_EQ(motion.elastic, 0.0);
+  EXPECT_EQ(motion.kinetic, all.kinetic);
+  EXPECT_EQ(motion.gravitational, all.gravitational);
+  EXPECT_EQ(motion.momentum, all.momentum);
+  EXPECT_EQ(motion.max_speed, all.max_speed);
+  EXPECT_EQ(motion.min_height, all.min_height);
+}
+
+// Bodies are squeezed into each other by and by, moved far apart, turned into no numbers and brought back.
+TEST(Energy, MeterThatKeepsItsSearchGivesTheBitsOfAFreshOne) {
+  const Model model = test::build(test::pile(Integrator::symplectic_euler, ContactModel::coulomb));
+  const State start = initial_state(model, Precision::double_);
+  Meter kept(model);
+  int touching = 0;
+  const auto compare = [&](const State& state) {
+    const Measures one = kept.measure(state), fresh = measure(model, state);
+    EXPECT_EQ(*one.contact, *fresh.contact) << state.step;
+    EXPECT_EQ(one.elastic, fresh.elastic) << state.step;
+    touching += *fresh.contact > 0.0 ? 1 : 0;
+  };
+  const auto moved = [&](std::uint64_t step, double squeeze, const Vec3& second) {
+    State state = start;
+    state.step = step;
+    for (Vec3& x : state.position) x.y *= squeeze;
+    const Body& body = model.bodies[1];
+    for (std::uint32_t i = 0; i < body.particle_count; ++i)
+      state.position[body.first_particle + i] = state.position[body.first_particle + i] + second;
+    return state;
+  };
+  for (std::uint64_t step = 0; step < 40; ++step)
+    compare(moved(step, 1.0 - 0.01 * static_cast<double>(step), {}));
+  compare(moved(500, 0.8, {0.0, 30.0, 0.0}));
+  compare(moved(501, 0.8, {1.7, -2.0, 0.3}));
+  State wrong = start;
+  wrong.position[7].x = std::numeric_limits<double>::quiet_NaN();
+  (void)kept.measure(wrong);
+  compare(moved(2, 0.8, {}));  // earlier, as after going back
+  compare(moved(900, 0.7, {-0.2, 0.0, 0.1}));
+  EXPECT_GE(touching, 30);
 }
 
 TEST(Energy, EmptyModelIsAllZero) {
