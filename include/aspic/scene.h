@@ -122,6 +122,7 @@ struct ArrowSettings {
 /// The `view` table of a scene.
 struct ViewSettings {
   CameraSettings camera;                     ///< the eye
+  bool aimed = false;                        ///< a file gave no camera: with_overrides() aims it at bodies
   DrawSettings draw;                         ///< which parts of the bodies
   ViewColour colour = ViewColour::material;  ///< of the bodies
   CutSettings cut;                           ///< through the bodies

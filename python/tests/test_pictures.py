@@ -48,6 +48,18 @@ def test_all_backends_give_the_same_picture_which_is_a_films(scene: aspic.Scene)
     assert np.array_equal(read_png(frames[-1].read_bytes()), sim.render(80, 45))
 
 
+@pytest.mark.parametrize("edge", [0.02, 0.25, 50.0])
+def test_bodies_of_any_size_are_seen_without_a_view(edge: float) -> None:
+    needs_pictures()
+    scene = aspic.Scene('schema = 1\n[[terrain]]\nshape = "plane"\npoint = [0, 0, 0]\n')
+    scene.add("cube", edge_length=edge, particles_per_edge=4, position=(0, 0.6 * edge, 0))
+    sim = aspic.Simulation(scene, "cpu")
+    seen = sim.render(96, 54, text=False).astype(int)
+    assert 0.1 < (seen[..., 0] > 1.3 * seen[..., 1]).mean() < 0.25  # the red cube
+    sim.film("frames", steps=0, width=96, height=54, text=False)
+    assert np.array_equal(read_png(next(pathlib.Path("frames").iterdir()).read_bytes()), seen)
+
+
 def test_an_instance_of_a_batch_has_the_picture_of_a_simulation(scene: aspic.Scene) -> None:
     needs_pictures()
     batch = aspic.Batch(scene, count=2, threads=1)

@@ -214,6 +214,7 @@ bool SceneEditor::withdraw(std::uint64_t after, std::uint64_t last) {
 Status SceneEditor::save_as(const std::string& path, const CameraSettings& camera, Overwrite overwrite) {
   Scene saved = scene_;
   saved.view.camera = camera;
+  saved.view.aimed = false;
   ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
   ASPIC_CHECK(file.write(to_short_toml(saved)));
   ASPIC_CHECK(file.commit());

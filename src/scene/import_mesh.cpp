@@ -111,6 +111,7 @@ Result<ImportedMesh> import_mesh(const MeshImport& import) {
   camera.target = {0.0, to_digits(0.7 * high), 0.0};
   camera.position = {to_digits(1.5 * reach), to_digits(0.7 * high + 0.8 * reach), to_digits(2.4 * reach)};
   camera.fov = 35.0;
+  made.scene.view.aimed = false;
   return made;
 }
 

@@ -9,6 +9,7 @@
 #include "base/lines.h"
 #include "base/memory.h"
 #include "base/printable.h"
+#include "scene/aim.h"
 #include "scene/diagnostics.h"
 #include "scene/document.h"
 #include "scene/input_file.h"
@@ -38,6 +39,7 @@ Result<Scene> with_arguments(reader::Reader reader, std::vector<diagnostics::Sou
   reader::read_actuator_files(reader, sources);
   auto problems = reader.problems(options.memory_bytes ? options.memory_bytes : available_memory());
   if (!problems.empty()) return diagnostics::rejection(sources, std::move(problems));
+  if (reader.scene().view.aimed) aim_at_bodies(reader.scene());
   return std::move(reader.scene());
 }
 
@@ -59,6 +61,7 @@ Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
   if (const auto* problem = std::get_if<diagnostics::Problem>(&parsed))
     return diagnostics::rejection(sources, {*problem});
   reader::Reader reader({}, true);
+  reader.scene().view.aimed = true;  // until a key of the camera is read
   reader.read_table(std::get<toml::table>(parsed), "", 0, 0);
   if (!reader.written().contains("name"))
     reader.scene().name = std::filesystem::path(file_name).stem().string();

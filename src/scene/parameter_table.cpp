@@ -166,10 +166,22 @@ Rows view_rows() {
     const auto& name = std::get<std::string>(value);
     scene.view.follow = name == "none" ? std::nullopt : std::optional(name);
   };
+  Parameter position = row("view.camera.position", "m", within(far), FIELD(view.camera.position),
+                           "Position of the camera. Where a file gives neither this nor a target, both show "
+                           "the bodies as they start.");
+  position.write = [](const Parameter&, Scene& scene, std::size_t, const Value& value) {
+    scene.view.camera.position = std::get<Vec3>(value);
+    scene.view.aimed = false;
+  };
+  Parameter target = row("view.camera.target", "m", within(far), FIELD(view.camera.target),
+                         "Point at the centre of the picture.");
+  target.write = [](const Parameter&, Scene& scene, std::size_t, const Value& value) {
+    scene.view.camera.target = std::get<Vec3>(value);
+    scene.view.aimed = false;
+  };
   return {
-      row("view.camera.position", "m", within(far), FIELD(view.camera.position), "Position of the camera."),
-      row("view.camera.target", "m", within(far), FIELD(view.camera.target),
-          "Point at the centre of the picture."),
+      position,
+      target,
       row("view.camera.fov", "°", {1.0, 179.0}, FIELD(view.camera.fov), "Vertical field of view."),
       word<projections>(
           "view.camera.projection", FIELD(view.camera.projection),

@@ -141,6 +141,11 @@ bool says_what_it_is(const Parameter& p) {
   return p.path == "schema" || p.path == "name" || p.type == ParameterType::layers;
 }
 
+/// What reading would make of the bodies where a file has neither.
+bool is_aim(const Parameter& p) {
+  return p.path == "view.camera.position" || p.path == "view.camera.target";
+}
+
 /// A value of a key of the scene.
 std::string value_text(const Parameter& p, const Value& value, const Manner& manner) {
   if (p.type == ParameterType::layers) {
@@ -179,7 +184,8 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
       }
       continue;
     }
-    if (manner.known && !says_what_it_is(p)) {
+    if (manner.known && is_aim(p) && scene.view.aimed) continue;
+    if (manner.known && !is_aim(p) && !says_what_it_is(p)) {
       // By their texts, which tell -0 from 0.
       const auto known = p.get(*manner.known, index);
       if (known && toml_value(*known) == toml_value(*value)) continue;

@@ -71,8 +71,9 @@ TEST(Defaults, AreThoseOfTheFormat) {
   }
   EXPECT_FALSE(c.material.has_value());
   EXPECT_TRUE(c.pinned.names.empty() && c.pinned.indices.empty());
-  EXPECT_EQ(s.view.camera.position, (Vec3{10.0, 6.0, 14.0}));
-  EXPECT_EQ(s.view.camera.target, (Vec3{0.0, 2.0, 0.0}));
+  EXPECT_TRUE(s.view.aimed);
+  EXPECT_EQ(CameraSettings().position, (Vec3{10.0, 6.0, 14.0}));
+  EXPECT_EQ(CameraSettings().target, (Vec3{0.0, 2.0, 0.0}));
   EXPECT_EQ(s.view.camera.fov, 45.0);
   EXPECT_EQ(s.view.draw, (DrawSettings{true, false, false, false, false}));
   EXPECT_EQ(s.view.colour, ViewColour::material);

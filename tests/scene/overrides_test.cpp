@@ -27,6 +27,7 @@ const std::string base = [] {
     if (list.key == "cube") text += "shear = { stiffness = 1000.0 }\n";
     if (list.key == "launcher") text += fmt::format("from{0}towards{0}", launcher_box);
   }
+  text += "[view]\ncamera = { target = [0, 2, 0] }\n";  // not where bodies are
   return text;
 }();
 
