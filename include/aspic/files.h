@@ -29,8 +29,7 @@ struct Checkpoint {
   std::string scene;            ///< the complete scene as TOML, as to_toml() writes it
   double timestep = 0.0;        ///< h [s], the scene's own: repeated to be seen without parsing
   State state;                  ///< with its precision and step
-  /// The run's input log as TOML, as to_toml() writes it, of later steps too; empty: none.
-  std::string inputs = {};
+  std::string inputs = {};      ///< the run's input log as TOML, of later steps too; empty: none
 };
 
 /// Reads a file. Errors (io): it cannot be read, is no regular file (a device or pipe may never end), no
@@ -56,6 +55,7 @@ struct Sample {
   const RunFacts* facts = nullptr;  ///< null except within a sink that was told them
   const Divergence* divergence = nullptr;  ///< of the step after it, which ended the run; null: none
   const Inputs* inputs = nullptr;  ///< those of the step after it (Solver::inputs()); null: there are none
+  std::string_view warnings = {};  ///< of the run so far, as the JSON of docs/exports.md; empty: none
 };
 
 /// Width and height of a picture [pixels].

@@ -143,10 +143,11 @@ class ASPIC_API RunFiles {
 
 /// A warning about a scene or a run, given once for each place.
 struct Diagnostic {
-  std::string id;      ///< what kind it is, for programs: "overlap", "flat-cells" (docs/commands.md)
-  std::string where;   ///< the first body: "cube[0]"; may be empty
-  std::string text;    ///< what was found, where and when; no full stop
-  std::string advice;  ///< what it means and what to do, likewise; may be empty
+  std::string id;          ///< what kind it is, for programs: "overlap", "flat-cells" (docs/commands.md)
+  std::string where;       ///< the first body: "cube[0]"; may be empty
+  std::string text;        ///< what was found, where and when; no full stop
+  std::string advice;      ///< what it means and what to do, likewise; may be empty
+  std::uint64_t step = 0;  ///< at which it was found
   ASPIC_API std::string sentence() const;  ///< the text, then the advice
 };
 
@@ -209,9 +210,8 @@ class ASPIC_API Recorder {
   /// After finish(): the names of the completed outputs.
   std::vector<std::string> written();
 
-  /// Counts time of the solver [s] for times().
-  void add_simulation(double seconds);
-  FrameTimes times() const;  ///< so far
+  void add_simulation(double seconds);  ///< counts time of the solver [s] for times()
+  FrameTimes times() const;             ///< so far
   /// The driver's name of the device that draws.
   const std::string& device() const;
 

@@ -39,7 +39,7 @@ from ._simulation import Advance, Simulation, SolveStatistics, resume
 from ._state import Difference, QuantityDifference, State, compare
 from ._sweep import sweep
 from ._table import Table, collect
-from ._trajectory import BatchTrajectory, Energy, Trajectory
+from ._trajectory import BatchTrajectory, Diagnostic, Energy, Trajectory
 
 __version__: str = _aspic.version
 
@@ -59,6 +59,7 @@ __all__ = [
     "DeviceError",
     "Difference",
     "DivergedError",
+    "Diagnostic",
     "Energy",
     "Error",
     "ErrorCode",

@@ -247,7 +247,7 @@ def _by_library(trajectory: Trajectory, path: Path, overwrite: bool) -> None:
         for field, array in enumerate(arrays):
             state.write(field, np.ascontiguousarray(array[sample], dtype=np.float64))
         writer.add_state(state)
-    writer.finish()
+    writer.finish(trajectory._texts().get("warnings", ""))
 
 
 def scene_of(trajectory: Trajectory) -> Scene:

@@ -26,7 +26,7 @@ from ._numbers import floats, name_of, pace, positive, whole
 from ._scene import Scene, changes, load
 from ._state import State, field_index
 from ._toml import assignments
-from ._trajectory import Recorder, Trajectory
+from ._trajectory import Diagnostic, Recorder, Trajectory, json_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -113,7 +113,7 @@ class Simulation(Replayable):
         """One for the package's own use, without warnings."""
         simulation = cls.__new__(cls)
         simulation._core = _aspic.Simulation(scene._core, backend, doubles, threads)
-        simulation._core.warnings()
+        simulation._core.new_warnings()
         return simulation
 
     # What computes.
@@ -179,6 +179,11 @@ class Simulation(Replayable):
         row = self._core.solves()
         return None if row is None else SolveStatistics(*row)
 
+    @property
+    def warnings(self) -> list[Diagnostic]:
+        """All that was warned of so far, at the start and on the way."""
+        return [Diagnostic(*row) for row in self._core.warnings()]
+
     def run(
         self,
         duration: float | None = None,
@@ -243,7 +248,7 @@ class Simulation(Replayable):
             try:
                 made = self._sample(count, every, lambda: writer.add(self._core))
             finally:
-                writer.finish()
+                writer.finish(json_of(self.warnings))
         else:
             if os.path.lexists(name) and not overwrite:
                 raise FileExistsError(f"{name!r} exists and was not changed: pass overwrite=True")
@@ -425,7 +430,7 @@ class Simulation(Replayable):
     # Parts.
 
     def _warn(self) -> None:
-        for kind, text in self._core.warnings():
+        for kind, _, _, text in self._core.new_warnings():
             warnings.warn(text, _WARNINGS.get(kind, RunWarning), stacklevel=3)
 
     def _ipython_key_completions_(self) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
     from ._reading import Measures, Readable
 
-__all__ = ["BatchTrajectory", "Energy", "Trajectory"]
+__all__ = ["BatchTrajectory", "Diagnostic", "Energy", "Trajectory"]
 
 
 class Energy(NamedTuple):
@@ -35,6 +36,24 @@ class Energy(NamedTuple):
     def total(self) -> Any:
         """Of all three."""
         return self.kinetic + self.elastic + self.gravitational
+
+
+class Diagnostic(NamedTuple):
+    """A warning of a scene or a run."""
+
+    kind: str
+    """``"flat-cells"``, ``"overlap"``, …: docs/commands.md lists them; also ``"step"`` and ``"solve"``."""
+    body: str
+    """The first that it is about; empty: none."""
+    step: int
+    """At which it was found."""
+    text: str
+    """Sentences: what was found, what it means and what to do."""
+
+
+def json_of(warnings: Sequence[Diagnostic]) -> str:
+    """As exports hold them; empty without any."""
+    return json.dumps([each._asdict() for each in warnings]) if warnings else ""
 
 
 class Series(Mapping[str, Any]):
@@ -138,9 +157,15 @@ def _arrays_of(path: str | os.PathLike[str]) -> dict[str, Any]:
         arrays.pop("axis", None)
         if "step" in arrays:
             arrays["steps"] = arrays.pop("step")
-        if "scene" in data.attrs:
-            arrays["scene"] = data.attrs["scene"]
+        arrays |= {name: data.attrs[name] for name in ("scene", "warnings") if name in data.attrs}
     return arrays
+
+
+def _text(array: Any) -> str | None:
+    """That of an array or of an attribute; UTF-8 where it has bytes."""
+    if array is None or isinstance(array, str):
+        return array
+    return array.item().decode() if array.dtype.kind == "S" else str(array)
 
 
 def _load(path: str | os.PathLike[str], *more: str) -> tuple[list[Any], dict[str, Any]]:
@@ -163,7 +188,14 @@ class Trajectory(Series):
     Arrays have the samples first: positions (t, n, 3), a centre of mass (t, 3), a speed (t,).
     """
 
-    def __init__(self, steps: Any, time: Any, series: dict[str, Any], scene: Scene | None = None):
+    def __init__(
+        self,
+        steps: Any,
+        time: Any,
+        series: dict[str, Any],
+        scene: Scene | None = None,
+        warnings: Sequence[Diagnostic] = (),
+    ):
         super().__init__(series)
         self.steps: NDArray[np.int64] = steps
         """Steps since the start, (t,)."""
@@ -171,6 +203,8 @@ class Trajectory(Series):
         """[s], (t,)."""
         self.scene = scene
         """What ran; None of a file that does not say it."""
+        self.warnings = list(warnings)
+        """What the simulation had warned of by the end of the run: flat cells, overlaps and others."""
 
     @functools.cached_property
     def model(self) -> dict[str, Any]:
@@ -191,6 +225,11 @@ class Trajectory(Series):
         flat = self._flat()
         return {**flat, **self.model} if self.scene is not None and _exports.about_all(flat) else flat
 
+    def _texts(self) -> dict[str, str]:
+        """The scene and the warnings, as far as there are any."""
+        scene = {} if self.scene is None else {"scene": self.scene.toml}
+        return {**scene, "warnings": json_of(self.warnings)} if self.warnings else scene
+
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
         """Writes what was recorded, for ``load()``: a compressed .npz of numpy, or a folder .zarr.
 
@@ -198,8 +237,7 @@ class Trajectory(Series):
         surfaces. They appear complete or not at all. .zarr needs the packages xarray and zarr. Raises UsageError where
         the name has another ending; FileExistsError unless ``overwrite``.
         """
-        scene = {} if self.scene is None else {"scene": self.scene.toml}
-        self._save(path, overwrite, {"steps": self.steps, "time": self.time, **self._arrays(), **scene})
+        self._save(path, overwrite, {"steps": self.steps, "time": self.time, **self._arrays(), **self._texts()})
 
     def _write(self, file: Any) -> None:
         """Writes it as ``save()`` does into an open file."""
@@ -211,11 +249,10 @@ class Trajectory(Series):
     def load(cls, path: str | os.PathLike[str]) -> Trajectory:
         """Reads what ``save()`` wrote, or ``aspic run --export`` as .npz. Raises what ``numpy.load()`` raises."""
         (steps, time), series = _load(path, "steps", "time")
-        scene = series.pop("scene", None)
+        scene, warnings = (_text(series.pop(name, None)) for name in ("scene", "warnings"))
         series = {name: array for name, array in series.items() if not name.startswith("model.")}
-        if scene is not None and not isinstance(scene, str):
-            scene = scene.item().decode() if scene.dtype.kind == "S" else str(scene)
-        return cls(steps, time, series, None if scene is None else Scene(scene))
+        found = [Diagnostic(**each) for each in json.loads(warnings or "[]")]
+        return cls(steps, time, series, None if scene is None else Scene(scene), found)
 
     def export(self, path: str | os.PathLike[str], overwrite: bool = False, *, springs: bool = False) -> None:
         """Writes the motion for other programs, as docs/exports.md says.
@@ -237,8 +274,7 @@ class Trajectory(Series):
             "time": ("time", self.time, {"units": "s", "long_name": "time"}),
             "step": ("time", self.steps),
         }
-        scene = {} if self.scene is None else {"scene": self.scene.toml}
-        return self._dataset(("time",), self._arrays(), coordinates, **scene)
+        return self._dataset(("time",), self._arrays(), coordinates, **self._texts())
 
 
 class BatchTrajectory(Series):
@@ -417,4 +453,5 @@ class Recorder:
                 series[name] = Energy(*(np.array(part, dtype=np.float64) for part in zip(*samples)))
             else:
                 series[name] = np.array(samples)
-        return Trajectory(steps, steps * self._simulation.timestep, series, self._simulation.scene)
+        sim = self._simulation
+        return Trajectory(steps, steps * sim.timestep, series, sim.scene, getattr(sim, "warnings", ()))

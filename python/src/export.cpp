@@ -31,12 +31,13 @@ class Export {
     if (!of_scene_) of_scene_ = take(make_model(scene_.model));
     add_sample(of_scene_, state, {});
   }
-  /// Completes it with what was added; nothing if there is none, or an error was raised.
-  void finish() {
+  /// Completes it with what was added; nothing if there is none, or an error was raised. `warnings`: as
+  /// Sample has them.
+  void finish(const std::string& warnings) {
     const Unlocked others;
     if (!complete_) return;
     complete_ = false;
-    check(files_.finish({.model = *model_, .state = state_, .inputs = &inputs_}));
+    check(files_.finish({.model = *model_, .state = state_, .inputs = &inputs_, .warnings = warnings}));
   }
 
  private:
@@ -68,7 +69,7 @@ void bind_export(nb::module_& module) {
            nb::arg("overwrite"))
       .def("add", &Export::add, nb::arg("simulation"), "A sample: the state as it is.")
       .def("add_state", &Export::add_state, nb::arg("state"), "A sample.")
-      .def("finish", &Export::finish, "Completes the files.");
+      .def("finish", &Export::finish, nb::arg("warnings"), "Completes the files.");
 }
 
 }  // namespace aspic::python

@@ -55,7 +55,7 @@ void Simulation::start(const BackendChoice& choice, bool& stopped) {
   watch_.emplace(scene_.model, *model_, true, backend_.solver->precision());
   keep(watch_->at_start());
   std::string unstable = unstable_step_warning(*model_, [&](double) { return !(stopped = signalled()); });
-  if (!unstable.empty()) warnings_.emplace_back("step", std::move(unstable));
+  if (!unstable.empty()) warnings_.emplace_back("step", "", step_, std::move(unstable));
 }
 
 void Simulation::refuse_while_viewed() const {
@@ -141,11 +141,12 @@ void Simulation::look_at_solves() {
   const auto solves = backend_.solver->solve_statistics();
   if (!solves || solves->not_converged == 0) return;
   solves_told_ = true;
-  warnings_.emplace_back(
-      "solve", std::to_string(solves->not_converged) + " of " + std::to_string(solves->steps) +
-                   " steps of implicit Euler did not converge, up to step " + std::to_string(step_) +
-                   ": raise implicit.newton-iterations or lower simulation.timestep; "
-                   "Simulation.solves has the residuals");
+  warnings_.emplace_back("solve", "", step_,
+                         std::to_string(solves->not_converged) + " of " + std::to_string(solves->steps) +
+                             " steps of implicit Euler did not converge, up to step " +
+                             std::to_string(step_) +
+                             ": raise implicit.newton-iterations or lower simulation.timestep; "
+                             "Simulation.solves has the residuals");
 }
 
 /// Without turn and with the GIL: raises what ended steps early.
@@ -161,7 +162,8 @@ void Simulation::look_alone(std::uint64_t before) {
 }
 
 void Simulation::keep(const std::vector<Diagnostic>& found) {
-  for (const Diagnostic& each : found) warnings_.emplace_back(each.id, each.sentence());
+  for (const Diagnostic& each : found)
+    warnings_.emplace_back(each.id, each.where, each.step, each.sentence());
 }
 
 std::optional<SolveStatistics> Simulation::solves() {
@@ -169,7 +171,15 @@ std::optional<SolveStatistics> Simulation::solves() {
 }
 
 std::vector<Simulation::Warning> Simulation::warnings() {
-  return alone([&] { return std::exchange(warnings_, {}); });
+  return alone([&] { return warnings_; });
+}
+
+std::vector<Simulation::Warning> Simulation::new_warnings() {
+  return alone([&] {
+    const auto first =
+        warnings_.begin() + static_cast<std::ptrdiff_t>(std::exchange(told_, warnings_.size()));
+    return std::vector<Warning>(first, warnings_.end());
+  });
 }
 
 Advance Simulation::advance(std::uint64_t steps) {
@@ -317,6 +327,7 @@ void Simulation::update(const std::vector<std::string>& overrides) {
     const SharedModel model = take(make_model(changed.model));
     check(backend_.solver->set_constants(model));
     painter_.reset();
+    meter_.reset();
     // Another time step keeps the time: steps have other numbers.
     step_ = take(backend_.solver->read_into({}));
     log_ = log_.with_timestep(scene_.model.simulation.timestep, changed.model.simulation.timestep);
@@ -327,7 +338,6 @@ void Simulation::update(const std::vector<std::string>& overrides) {
     watch_ = std::move(watch);
     driven_ = true;
   });
-    meter_.reset();
 }
 
 std::optional<ConstVectors> Simulation::begin_view(std::size_t field) {

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -84,9 +85,9 @@ class Simulation {
   /// Error (usage): numbers of another model.
   void load(const State& state, const InputLog* log);
   Measures measures();
-  /// Of actuators up to this state: ActuatorWork::add().
   /// Without elastic energy, as measure_motion().
   Measures motion();
+  /// Of actuators up to this state: ActuatorWork::add().
   std::optional<double> add_work(ActuatorWork& work);
   StateQuantities quantities();
   /// A state with what belongs to it, for f(model, state, inputs), without the GIL.
@@ -106,10 +107,12 @@ class Simulation {
   /// The first step whose states differ, of so many; both advance until there.
   std::optional<std::uint64_t> compare(Simulation& other, std::uint64_t steps);
 
-  /// A kind (solve, step, or Diagnostic::id) and a sentence.
-  using Warning = std::pair<std::string, std::string>;
-  /// Warnings since the last call.
+  /// A kind (solve, step, or Diagnostic::id), a body or nothing, a step and a sentence.
+  using Warning = std::tuple<std::string, std::string, std::uint64_t, std::string>;
+  /// All so far.
   std::vector<Warning> warnings();
+  /// Those since the last call.
+  std::vector<Warning> new_warnings();
 
   std::vector<std::byte> picture(const std::vector<std::string>& view, const PictureSize& size, bool text);
   /// Another model of the same topology.
@@ -157,13 +160,14 @@ class Simulation {
   Turns turns_;
   Scene scene_;
   SharedModel model_;
+  std::optional<Meter> meter_;  // of model_, once energies were asked for
   Backend backend_;
   InputLog log_;
   std::uint64_t step_ = 0;
-  std::optional<Meter> meter_;  // of model_, once energies were asked for
   std::optional<RunWatch> watch_;  // of model_
   bool driven_ = false;            // states were set, or constants changed
-  std::vector<Warning> warnings_;  // not told yet
+  std::vector<Warning> warnings_;
+  std::size_t told_ = 0;  // of these
   std::atomic<bool> stop_ = false;
   bool solves_told_ = false;
   std::atomic<int> views_ = 0;

@@ -119,7 +119,8 @@ void bind_simulation(nb::module_& module) {
                             all->newton_iterations, all->cg_iterations, all->worst_residual);
           },
           "Figures of implicit Euler; None with other integrators.")
-      .def("warnings", &Simulation::warnings, "Kinds and sentences, each told once.")
+      .def("warnings", &Simulation::warnings, "Kinds, bodies, steps and sentences.")
+      .def("new_warnings", &Simulation::new_warnings, "Those since the last call.")
       .def("compare", &Simulation::compare, nb::arg("other"), nb::arg("steps"),
            "The first step that differs.")
       .def("view", &view, nb::arg("field"), "A field in the solver's memory; None on a device.")

@@ -1,5 +1,7 @@
 """Motions for other programs, as far as numpy and xarray read them; other libraries are for the full tier."""
 
+import importlib.util
+import json
 import pathlib
 import pickle
 import subprocess
@@ -165,6 +167,33 @@ def test_datasets_have_units_and_dimensions(motion: aspic.Trajectory, scene: asp
     assert data["centre-of-mass"].dims == ("instance", "sample", "axis") and data["time"].shape == (3, 3)
     assert data["positions"].shape == (3, 3, 64, 3) and data["hash"].values.tolist() == out.hash
     assert np.array_equal(data["energy.elastic"], out["energy"].elastic)
+
+
+@pytest.mark.filterwarnings("ignore::aspic.RunWarning")
+def test_exports_hold_what_a_run_warned_of(program: Any) -> None:
+    scene = aspic.load("cube-plane", {"cube[0].particles-per-edge": 4, "cube[0].position": [0, -20, 0]})
+    sim = aspic.Simulation(scene, "cpu")
+    motion = sim.run(0.2, every=0.1, record=["motion"])
+    kinds = [(each.kind, each.body, each.step) for each in motion.warnings]
+    assert ("flat-cells", "cube[0]", 100) in kinds and ("within-terrain", "cube[0]", 0) in kinds, kinds
+    assert "27 of cube[0]" in next(each.text for each in motion.warnings if each.kind == "flat-cells")
+    assert motion.warnings == sim.warnings
+    motion.save("saved.npz")
+    motion.export("other.npz")
+    again = aspic.Simulation(scene, "cpu")
+    again.export("own.npz", 0.2, every=0.1)
+    scene.save("deep.toml")
+    program("run", "deep.toml", "--backend", "cpu", "--duration", "0.2", "--export", "program.npz")
+    for name in ("saved.npz", "other.npz", "own.npz"):
+        assert aspic.Trajectory.load(name).warnings == motion.warnings, name
+    told = aspic.Trajectory.load("program.npz").warnings
+    assert told == [each for each in motion.warnings if each.kind != "step"]
+    assert pickle.loads(pickle.dumps(motion)).warnings == motion.warnings
+    quiet = aspic.Simulation("cube-plane", "cpu").run(steps=1)
+    quiet.save("quiet.npz")
+    assert quiet.warnings == [] and "warnings" not in np.load("quiet.npz")
+    if importlib.util.find_spec("xarray"):
+        assert [each["kind"] for each in json.loads(motion.to_xarray().attrs["warnings"])] == [k for k, _, _ in kinds]
 
 
 def test_balls_are_recorded_and_exported() -> None:

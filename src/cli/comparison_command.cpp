@@ -314,10 +314,12 @@ Status execute_comparison(const RunOptions& options) {
   // Pictures last: an encoder may keep a run waiting.
   for (const auto& m : variants) {
     Outcome& outcome = *m->outcome;
+    const std::string warnings = export_text(outcome.diagnostics);
     (void)m->files.finish({.model = *m->model,
                            .state = outcome.state,
                            .solves = outcome.solves.value_or(SolveStatistics{}),
-                           .inputs = &m->headless->solver().inputs()});
+                           .inputs = &m->headless->solver().inputs(),
+                           .warnings = warnings});
     outcome.actuator_work = m->files.actuator_work();
   }
   if (recorder && pictured_all) pictured_all = recorder->finish();

@@ -207,11 +207,13 @@ Status execute(const RunOptions& options) {
   HeadlessRun headless(*backend.solver, files, first_step, options.pictures.any(), inputs);
   headless.set_watch(watch);
   ASPIC_TRY(auto outcome, simulate(headless, recorder.get(), steps, interrupt));
+  const std::string warnings = export_text(outcome.diagnostics);
   (void)files.finish({.model = model,
                       .state = outcome.state,
                       .solves = outcome.solves.value_or(SolveStatistics{}),
                       .divergence = outcome.divergence ? &*outcome.divergence : nullptr,
-                      .inputs = &backend.solver->inputs()});
+                      .inputs = &backend.solver->inputs(),
+                      .warnings = warnings});
   outcome.actuator_work = files.actuator_work();
   if (recorder) finish_pictures(*recorder, *backend.solver, outcome);
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};

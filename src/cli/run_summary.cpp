@@ -81,8 +81,17 @@ Json to_json(const RunReport& run) {
 Json to_json(const std::vector<Diagnostic>& diagnostics) {
   Json all = Json::array();
   for (const Diagnostic& d : diagnostics)
-    all.push_back({{"id", d.id}, {"where", d.where}, {"text", d.text}, {"advice", d.advice}});
+    all.push_back(
+        {{"id", d.id}, {"where", d.where}, {"step", d.step}, {"text", d.text}, {"advice", d.advice}});
   return all;
+}
+
+std::string export_text(const std::vector<Diagnostic>& diagnostics) {
+  if (diagnostics.empty()) return "";
+  Json all = Json::array();
+  for (const Diagnostic& d : diagnostics)
+    all.push_back({{"kind", d.id}, {"body", d.where}, {"step", d.step}, {"text", d.sentence()}});
+  return all.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
 std::string to_text(const RunReport& run) {

@@ -29,8 +29,10 @@ Json to_json(const RunReport& run);
 /// The same for people, a line each.
 std::string to_text(const RunReport& run);
 
-/// What a watch found, with id, where, text and advice of each.
+/// What a watch found, with id, where, step, text and advice of each.
 Json to_json(const std::vector<Diagnostic>& diagnostics);
+/// The same as exports hold it: docs/exports.md. Empty: nothing.
+std::string export_text(const std::vector<Diagnostic>& diagnostics);
 /// Pictures, and the time each took on `device`.
 Json to_json(const FrameTimes& times, const std::string& device);
 /// One line on stderr: pictures are by the way, the summary on stdout is the run's.

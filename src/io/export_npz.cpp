@@ -277,19 +277,23 @@ class NpzSeries final : public MotionSink {
     ASPIC_CHECK(columns_.write(zip));
     ASPIC_CHECK(write_model(zip, last.model));
     // UTF-8, as bytes of one string.
-    if (!scene_.empty())
-      ASPIC_CHECK(write_array(zip, "scene", npy_head(fmt::format("|S{}", scene_.size()), {}), scene_));
+    const auto write_text = [&](const char* name, std::string_view text) -> Status {
+      if (text.empty()) return {};
+      return write_array(zip, name, npy_head(fmt::format("|S{}", text.size()), {}), text);
+    };
+    ASPIC_CHECK(write_text("scene", scene_));
+    ASPIC_CHECK(write_text("warnings", last.warnings));
     ASPIC_CHECK(zip.finish());
     return file_.commit();
   }
 
   AtomicFile file_;
   Columns columns_;
+  std::optional<Meter> meter_;  // from the first sample on
   ActuatorWork actuators_;
   std::string scene_;
 };
 
-  std::optional<Meter> meter_;  // from the first sample on
 }  // namespace
 
 Result<std::unique_ptr<StateSink>> open_npz(const std::string& path, std::uint64_t every, Overwrite overwrite,

@@ -200,6 +200,7 @@ std::vector<Diagnostic> RunWatch::look(const Model& model, const State& state, b
   parts_->look_for_flat(state, found);
   parts_->energetic = parts_->energetic && !driven;
   if (parts_->energetic && !parts_->told_energy) parts_->look_for_energy(model, state, found);
+  for (Diagnostic& each : found) each.step = state.step;
   return found;
 }
 

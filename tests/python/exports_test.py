@@ -228,6 +228,7 @@ def test_usd_has_every_number(run: Run, ending: str) -> None:
     assert stage.GetDefaultPrim().GetPath() == "/aspic"
     codes = run.motion.time * stage.GetTimeCodesPerSecond()
     assert (stage.GetStartTimeCode(), stage.GetEndTimeCode()) == (codes[0], codes[-1])
+    assert stage.GetRootLayer().customLayerData == {f"aspic:{n}": text for n, text in run.motion._texts().items()}
     assert stage.GetRootLayer().customLayerData["aspic:scene"] == run.sim.scene.toml
     model, motion = run.motion.model, run.motion
     for number, name in enumerate(run.sim.bodies):
