@@ -34,9 +34,8 @@ constexpr std::string_view type_of() {
 
 /// What an .npy file begins with. Source: numpy.lib.format, version 1.0.
 std::string npy_head(std::string_view type, const Extents& extents) {
-  std::string list;
-  for (const std::uint64_t extent : extents) list += fmt::format("{},", extent);
-  std::string head = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, list);
+  std::string head = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", type,
+                                 fmt::join(extents, ","), extents.empty() ? "" : ",");
   constexpr std::size_t before = 10, aligned = 64;
   head.append(aligned - 1 - (before + head.size()) % aligned, ' ');
   head += '\n';
@@ -277,12 +276,11 @@ class NpzSeries final : public MotionSink {
     ASPIC_CHECK(columns_.write(zip));
     ASPIC_CHECK(write_model(zip, last.model));
     // UTF-8, as bytes of one string.
-    const auto write_text = [&](const char* name, std::string_view text) -> Status {
-      if (text.empty()) return {};
+    const auto write_text = [&](const char* name, const std::string_view text) {
       return write_array(zip, name, npy_head(fmt::format("|S{}", text.size()), {}), text);
     };
-    ASPIC_CHECK(write_text("scene", scene_));
-    ASPIC_CHECK(write_text("warnings", last.warnings));
+    if (!scene_.empty()) ASPIC_CHECK(write_text("scene", scene_));
+    if (!last.warnings.empty()) ASPIC_CHECK(write_text("warnings", last.warnings));
     ASPIC_CHECK(zip.finish());
     return file_.commit();
   }

@@ -21,10 +21,8 @@ inline constexpr std::string_view series_csv_header =
 /// before, the residual [m/s] of the last of them.
 inline constexpr std::string_view series_csv_solve_header =
     ",newton_iterations,cg_iterations,residual,converged,stagnated,not_converged";
-
 /// What follows these in a model whose bodies can touch: of the elastic energy, that of pushes between them.
 inline constexpr std::string_view series_csv_contact_header = ",contact";
-
 /// And in one with actuators: their work since the first row.
 inline constexpr std::string_view series_csv_work_header = ",actuator_work";
 
@@ -43,17 +41,13 @@ class SeriesWriter {
   Status add(std::uint64_t step, double time, const Measures& measures, const SolveStatistics& solves = {},
              std::optional<double> work = {});
 
-  /// That of the last row.
-  std::optional<double> work() const { return last_work_; }
-
-  /// Completes the file with the rows so far.
-  Status finish();
+  std::optional<double> work() const { return last_work_; }  ///< that of the last row
+  Status finish();                                           ///< completes the file with the rows so far
 
  private:
   SeriesWriter(AtomicFile file, bool solves) : file_(std::move(file)), has_solves_(solves) {}
   AtomicFile file_;
   Status write_header(bool contact, bool work);
-
   bool has_solves_ = false, has_contact_ = false, has_work_ = false;
   SolveStatistics before_;  // as of the last row
   ActuatorWork work_;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "aspic/analysis.h"
@@ -108,23 +109,15 @@ TEST(Energy, BallsCountOnceTheyAreLaunched) {
 }
 
 TEST(Energy, MotionNeedsNeitherSpringsNorContacts) {
-  ModelSettings settings = test::pile(Integrator::symplectic_euler, ContactModel::coulomb);
-  Model model = test::build(settings);
+  Model model = test::build(test::pile(Integrator::symplectic_euler, ContactModel::coulomb));
   const State state = initial_state(model, Precision::double_);
   const Measures all = measure(model, state);
-  ASSERT_TRUE(all.contact);
-  // Without springs and surfaces.
-  model.listed_springs.clear();
   model.spring_classes.clear();
-  model.bodies.clear();
+  model.bodies.clear();  // with their surfaces
   const Measures motion = measure_motion(model, state);
-  EXPECT_FALSE(motion.contact);
-  EXPECT_EQ(motion.elastic, 0.0);
-  EXPECT_EQ(motion.kinetic, all.kinetic);
-  EXPECT_EQ(motion.gravitational, all.gravitational);
-  EXPECT_EQ(motion.momentum, all.momentum);
-  EXPECT_EQ(motion.max_speed, all.max_speed);
-  EXPECT_EQ(motion.min_height, all.min_height);
+  EXPECT_TRUE(motion.kinetic == all.kinetic && motion.gravitational == all.gravitational);
+  EXPECT_TRUE(motion.momentum == all.momentum && motion.max_speed == all.max_speed);
+  EXPECT_TRUE(motion.min_height == all.min_height && motion.elastic == 0.0 && !motion.contact && all.contact);
 }
 
 // Bodies are squeezed into each other by and by, moved far apart, turned into no numbers and brought back.
@@ -133,30 +126,24 @@ TEST(Energy, MeterThatKeepsItsSearchGivesTheBitsOfAFreshOne) {
   const State start = initial_state(model, Precision::double_);
   Meter kept(model);
   int touching = 0;
-  const auto compare = [&](const State& state) {
-    const Measures one = kept.measure(state), fresh = measure(model, state);
-    EXPECT_EQ(*one.contact, *fresh.contact) << state.step;
-    EXPECT_EQ(one.elastic, fresh.elastic) << state.step;
-    touching += *fresh.contact > 0.0 ? 1 : 0;
-  };
-  const auto moved = [&](std::uint64_t step, double squeeze, const Vec3& second) {
+  const auto compare = [&](std::uint64_t step, double squeeze, const Vec3& second) {
     State state = start;
     state.step = step;
     for (Vec3& x : state.position) x.y *= squeeze;
     const Body& body = model.bodies[1];
-    for (std::uint32_t i = 0; i < body.particle_count; ++i)
-      state.position[body.first_particle + i] = state.position[body.first_particle + i] + second;
-    return state;
+    for (Vec3& x : std::span(state.position).subspan(body.first_particle, body.particle_count))
+      x = x + second;
+    const Measures one = kept.measure(state), fresh = measure(model, state);
+    EXPECT_TRUE(*one.contact == *fresh.contact && one.elastic == fresh.elastic) << step;
+    touching += *fresh.contact > 0.0 ? 1 : 0;
   };
-  for (std::uint64_t step = 0; step < 40; ++step)
-    compare(moved(step, 1.0 - 0.01 * static_cast<double>(step), {}));
-  compare(moved(500, 0.8, {0.0, 30.0, 0.0}));
-  compare(moved(501, 0.8, {1.7, -2.0, 0.3}));
+  for (std::uint64_t step = 0; step < 40; ++step) compare(step, 1.0 - 0.01 * static_cast<double>(step), {});
+  compare(500, 0.8, {0.0, 30.0, 0.0});
+  compare(501, 0.8, {1.7, -2.0, 0.3});
   State wrong = start;
   wrong.position[7].x = std::numeric_limits<double>::quiet_NaN();
   (void)kept.measure(wrong);
-  compare(moved(2, 0.8, {}));  // earlier, as after going back
-  compare(moved(900, 0.7, {-0.2, 0.0, 0.1}));
+  compare(2, 0.8, {});  // earlier, as after going back
   EXPECT_GE(touching, 30);
 }
 
