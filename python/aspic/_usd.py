@@ -47,9 +47,7 @@ def write(path: str, trajectory: Trajectory, springs: bool) -> None:
     codes = (trajectory.time * PER_SECOND).tolist()
     stage.SetStartTimeCode(codes[0])
     stage.SetEndTimeCode(codes[-1])
-    stage.GetRootLayer().customLayerData = {
-        f"aspic:{name}": text for name, text in trajectory._texts().items()
-    }
+    stage.GetRootLayer().customLayerData = {f"aspic:{name}": text for name, text in trajectory._texts().items()}
     root = UsdGeom.Xform.Define(stage, "/aspic")
     stage.SetDefaultPrim(root.GetPrim())
     writer = _Writer(stage, trajectory, codes)
