@@ -118,7 +118,8 @@ Offers without_option(const CommandFacts& command, std::string_view start) {
       found.push_back({below.name.substr(below.name.rfind(' ') + 1), below.summary});
     for (const OptionFacts& argument : command.arguments) {
       if (argument.value == "SCENE")
-        for (const BuiltinScene& scene : list_builtin_scenes()) found.push_back({std::string(scene.name), ""});
+        for (const BuiltinScene& scene : list_builtin_scenes())
+          found.push_back({std::string(scene.name), ""});
       add_names(found, argument.value == "SCENE" ? argument.value : "FILE");
     }
   }
