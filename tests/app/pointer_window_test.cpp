@@ -279,7 +279,8 @@ TEST_F(Pointer, PullsAndPinsAreMarked) {
 TEST_F(Pointer, DoubleClickCentresWhatIsThere) {
   std::ofstream("scene.toml")
       << "schema = 1\n[[terrain]]\nshape = \"plane\"\n[[cube]]\nposition = [0, 3, 0]\n"
-         "[[ball]]\nposition = [-4, 1, 2]\nradius = 0.8\nvelocity = [0, 0, 0]\n";
+         "[[ball]]\nposition = [-4, 1, 2]\nradius = 0.8\nvelocity = [0, 0, 0]\n"
+         "[view]\ncamera = { position = [10, 6, 14], target = [0, 2, 0] }\n";
   open("scene.toml");
   const auto distance = [](const CameraSettings& c) { return length(c.position - c.target); };
   const CameraSettings home = app().view.camera.goal();
