@@ -69,8 +69,9 @@ Reaction react(vec3 x, float m, vec3 v) {
   Reaction reaction = no_reaction(v);
 #ifdef ASPIC_ONE_TERRAIN
   if (crosses(0u, x, reaction)) {
-    reaction.held[reaction.count++] = 0u;
-    if (!on_one(x, m, v, reaction)) reaction = no_reaction(v);
+    Reaction next = no_reaction(v);
+    next.held[next.count++] = 0u;
+    if (on_one(x, m, v, next)) reaction = next;
   }
 #else
   for (uint round = 0u; round < 2u; ++round) {
