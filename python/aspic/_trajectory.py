@@ -330,7 +330,7 @@ class BatchTrajectory(Series):
         return self._dataset(("instance", "sample"), self._flat(), coordinates)
 
 
-# What may be recorded: of a state's measures without its springs, of all particles or of a body.
+# Names that can be recorded: measures that need no springs, arrays of all particles, arrays of a body.
 _OF_MOTION = ("momentum", "max-speed", "min-height")
 _ARRAYS = ("positions", "velocities")
 _OF_BALLS = ("ball-positions", "ball-velocities", "ball-angular-velocities")

@@ -31,7 +31,7 @@ class Export {
     if (!of_scene_) of_scene_ = take(make_model(scene_.model));
     add_sample(of_scene_, state, {});
   }
-  /// Completes it with what was added; nothing if there is none, or an error was raised. `warnings`: as
+  /// Completes the file with the samples added; nothing without samples or after an error. `warnings`: as
   /// Sample has them.
   void finish(const std::string& warnings) {
     const Unlocked others;

@@ -74,7 +74,7 @@ bool link_at(Walk w, out Link link) {
   if (w.plane_stride == 0) return listed_link_at(w, link);
 #endif
   uint word = directions[w.at].word;
-  ivec3 o = ivec3((uvec3(word) >> uvec3(0u, 3u, 6u)) & 7u) - 2;
+  ivec3 o = steps_of(word);
   uint bits = step_bits(o.x, o.y, o.z);
   link = Link(w.particle + uint(o.x * w.plane_stride + o.y * w.row_stride + o.z), spring_class(w.first_class + (word >> 9)));
   return (w.steps & bits) == bits;

@@ -55,7 +55,7 @@ precise vec3 other_x, other_v;
 #define DIRECTION(d)                                                                        \
   {                                                                                         \
     uint word = directions[d].word;                                                         \
-    ivec3 o = ivec3((uvec3(word) >> uvec3(0u, 3u, 6u)) & 7u) - 2;                           \
+    ivec3 o = steps_of(word);                                                               \
     READ_OTHER(o.x, o.y, o.z)                                                               \
     SpringClass spring = spring_class(lattice.first_class + (word >> 9));                   \
     ADD_LINK(0, o.x, o.y, o.z, spring)                                                      \

@@ -22,6 +22,9 @@ uint steps_from(uvec3 place, uvec3 size) {
   return steps_from(place.x, size.x) | (steps_from(place.y, size.y) << 5) | (steps_from(place.z, size.z) << 10);
 }
 
+// The steps of a word of the table of directions.
+ivec3 steps_of(uint word) { return ivec3((uvec3(word) >> uvec3(0u, 3u, 6u)) & 7u) - 2; }
+
 uint step_bits(int di, int dj, int dk) { return (1u << (di + 2)) | (1u << (dj + 7)) | (1u << (dk + 12)); }
 
 uvec3 place_in(uvec3 size, uint at) {

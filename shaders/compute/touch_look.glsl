@@ -59,8 +59,8 @@ bool look(Looker p, uint k, uint side, out Sight seen) {
   return true;
 }
 
-// Of the triangles of a side the nearest, of those as near the one straightest in front, of equals the nearest, and what
-// the point sees of it. `fronts` gets a bit for each side straight in front of the point.
+// The nearest triangle of a side, with the point's view of it. Among triangles as near, the one straightest in front counts;
+// among equals, the nearest. `fronts` gets a bit for each side straight in front of the point.
 uint nearest_of(Looker p, uint side, inout uint fronts, out Sight best_seen) {
   precise float least = NOTHING_NEAR;
   Sight seen;

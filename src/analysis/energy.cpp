@@ -17,7 +17,7 @@ struct Meter::Parts {
   const Model& model;
   std::optional<Contact> contact;  // from the first state on, where bodies touch
 
-  /// What pushes between bodies hold [J].
+  /// The elastic energy of contacts between bodies [J].
   double push_energy(const State& state) {
     if (!contact) contact.emplace(model);
     const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);

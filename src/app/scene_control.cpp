@@ -188,7 +188,7 @@ void SceneControl::follow_history() {
   taken_ = editor_.last_change();
 }
 
-/// What a change of the simulation's scene to the editor's asks of it.
+/// The effect of going from the simulation's scene to the editor's.
 Effect SceneControl::effect_on_running() const {
   Scene running = scene();
   running.model = simulation_.present().setup().settings;

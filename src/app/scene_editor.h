@@ -70,7 +70,7 @@ class SceneEditor {
   /// The number of the last change, undo or redo.
   std::uint64_t last_change() const { return last_change_; }
   /// Takes back the changes of what is simulated numbered above `after`, up to `last`, since the scene was
-  /// opened. Later changes stay, or go too where they depend on these. False: there are none.
+  /// opened. Later changes stay unless they depend on these. Returns whether there were any.
   bool withdraw(std::uint64_t after, std::uint64_t last);
 
   /// Writes the scene as it is now, as a person would, with this camera; the file is the one that is open

@@ -48,7 +48,7 @@ std::optional<std::array<int, 2>> position_of(GLFWwindow* window) {
   return position;
 }
 
-/// Of the first monitor's pictures [s].
+/// Time between two frames of the first monitor [s].
 double refresh_interval() {
   GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
   const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
