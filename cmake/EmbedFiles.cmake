@@ -24,6 +24,10 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
       DEPENDS ${arg_FILES} "${list}" "${ASPIC_EMBED_SCRIPT}"
       COMMENT "Embedding ${arg_SYMBOL}"
       VERBATIM)
+    # A target without dependencies: Ninja makes a file that several targets share wait for what they all depend on, here nothing. Otherwise
+    # every object of TARGET would wait for all objects of the libraries that it uses.
+    add_custom_target(embed_${arg_SYMBOL} DEPENDS "${output}")
+    add_dependencies(${target} embed_${arg_SYMBOL})
     target_sources(${target} PRIVATE "${output}")
   endfunction()
   return()

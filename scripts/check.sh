@@ -75,41 +75,49 @@ alone_header() {
   (cd build/alone && echo "#include \"${1#*/}\"" | eval "$command -fsyntax-only -x c++ -") || { echo "^ $1" && return 1; }
 }
 
-# in_parts WHAT COMMAND ITEM …: COMMAND over the items, as many at once as there are processors, until ASPIC_ALONE_SECONDS are over if
-# they are set; says how many were left then.
-in_parts() {
-  local what=$1 command=$2 items=("${@:3}") part at=0 failed=0 started=$SECONDS
-  part=$(nproc) # few, since one may take half a minute
-  while [ "$at" -lt "${#items[@]}" ]; do
-    if [ $((SECONDS - started)) -ge "${ASPIC_ALONE_SECONDS:-86400}" ]; then
-      echo "alone: $at $what compiled, $((${#items[@]} - at)) older ones left for want of time" | tee /dev/fd/3
-      break
-    fi
-    "$command" "${items[@]:at:part}" || failed=1
-    at=$((at + part))
+# alone_part ITEM …: compiles a few files, which Ninja calls FILE^, and headers.
+alone_part() {
+  local item files=() headers=() failed=0
+  for item in "$@"; do
+    if [[ $item == *^ ]]; then files+=("$item"); else headers+=("$item"); fi
   done
+  if [ ${#files[@]} -gt 0 ]; then ninja -C build/alone -k 0 --quiet "${files[@]}" || failed=1; fi
+  if [ ${#headers[@]} -gt 0 ]; then
+    printf '%s\0' "${headers[@]}" | xargs -0 -n 1 -P "$(nproc)" "$BASH" -c 'alone_header "$1"' alone || failed=1
+  fi
   return "$failed"
 }
-alone_files() { ninja -C build/alone -k 0 --quiet "$@"; }
-alone_headers() { printf '%s\0' "$@" | xargs -0 -n 1 -P "$(nproc)" "$BASH" -c 'alone_header "$1"' alone; }
 
-# A header is compiled as the .cpp of its name or, without one, by itself.
+# A header is compiled as the .cpp of its name or, without one, by itself. As many at once as there are processors, until ASPIC_ALONE_SECONDS
+# are over if they are set.
 step_alone() {
-  local files file targets=() headers=() failed=0
+  local files file items=() part at=0 failed=0 started
   files=$(changed_files) || return 1
   cmake --preset alone || return 1
+  if [ "$(ninja -C build/alone -t commands "$aspic_root/src/main.cpp^" | grep -c -e ' -c ')" -gt 1 ]; then
+    echo "error: src/main.cpp waits for other objects; a custom command depends on a library (ninja -C build/alone -t commands $aspic_root/src/main.cpp^)"
+    return 1
+  fi
   while read -r file; do
     if [[ $file == *.h && -f ${file%.h}.cpp ]]; then file=${file%.h}.cpp; fi
     if grep -qF "\"file\": \"$aspic_root/$file\"" build/alone/compile_commands.json; then
-      [[ " ${targets[*]} " == *" $aspic_root/$file^ "* ]] || targets+=("$aspic_root/$file^")
+      [[ " ${items[*]} " == *" $aspic_root/$file^ "* ]] || items+=("$aspic_root/$file^")
     elif [[ $file == src/*.h || $file == include/*.h ]]; then
-      headers+=("$file")
+      items+=("$file")
     fi # others, of fuzzers for one, have no target in this build
   done <<<"$files"
-  in_parts files alone_files "${targets[@]}" || failed=1
   export aspic_root
   export -f alone_header files
-  in_parts headers alone_headers "${headers[@]}" || failed=1
+  part=$(nproc) # few, since one may take half a minute
+  started=$SECONDS
+  while [ "$at" -lt "${#items[@]}" ]; do
+    if [ $((SECONDS - started)) -ge "${ASPIC_ALONE_SECONDS:-86400}" ]; then
+      echo "alone: $at files compiled, $((${#items[@]} - at)) older ones left for want of time" | tee /dev/fd/3
+      break
+    fi
+    alone_part "${items[@]:at:part}" || failed=1
+    at=$((at + part))
+  done
   return "$failed"
 }
 
