@@ -1,12 +1,12 @@
 # Sourced by run.sh, test.sh and package.sh: installs what is missing and builds Release. Everything it says goes to stderr.
-# Usage: source scripts/setup.sh; aspic_install run|all|package; aspic_install_packages name …; aspic_python; aspic_wasm; aspic_build ON|OFF|BENCH [ninja target …]
+# Usage: source scripts/setup.sh; aspic_install run|all|package|docs; aspic_install_packages name …; aspic_python; aspic_wasm; aspic_build ON|OFF|BENCH [ninja target …]
 
 aspic_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 aspic_build_dir=$aspic_root/build/release
 
-# aspic_packages run|all|package: names from packages.txt.
+# aspic_packages run|all|package|docs: names from packages.txt.
 aspic_packages() {
-  awk -v who="$1" '!/^#/ && NF >= 2 && ($2 == "run" || (who == "all" && $2 ~ /test/) || (who == "package" && $2 ~ /package/)) { print $1 }' \
+  awk -v who="$1" '!/^#/ && NF >= 2 && ($2 == "run" || $2 ~ (who == "all" ? "test" : who)) { print $1 }' \
     "$aspic_root/scripts/packages.txt"
 }
 

@@ -14,8 +14,9 @@ core      each room's own tests; the gpu solvers on llvmpipe with a covering set
           models, force paths and bodies; pictures; the command line, its manual pages and completion; the Python
           package; the window's main tests; each scene of the independent implementation once
 full      core, and by label:
-  pages        pages of every built-in scene in Chromium and Firefox; pages that simulate, with every scene and method, and the site;
-               those that simulate are skipped where scripts/wasm.sh has made no module
+  pages        pages of every built-in scene in Chromium and Firefox; pages that simulate, with every scene and method, which are
+               skipped where scripts/wasm.sh has made no module
+  docs         the documentation site of two scenes (scripts/docs.sh): no warning, no dead link, known names in it
   products     equal bits in products of methods, terrains, scenes and paths, and for more particles; cubes that come to rest
                and stick, under the rest of the explicit methods
   drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads, on zink and for

@@ -1,4 +1,4 @@
-"""Soft bodies of point masses and springs, with the same bits on GPU and CPU.
+"""Soft bodies of point masses and springs, with the same bits on GPU and CPU::
 
     import aspic
 

@@ -106,7 +106,7 @@ class Body:
 
     @property
     def strain(self) -> NDArray[np.float64]:
-        """Mean |strain| of each particle's springs, (n,)."""
+        """Mean absolute strain of each particle's springs, (n,)."""
         return self._simulation.quantities.mean_strain[self._slice]
 
     @property

@@ -58,7 +58,7 @@ class Quantities(NamedTuple):
     speed: NDArray[np.float64]
     """Of particles, (n,) [m/s]."""
     mean_strain: NDArray[np.float64]
-    """Mean |strain| of a particle's springs, (n,)."""
+    """Mean absolute strain of a particle's springs, (n,)."""
     force: NDArray[np.float64]
     """On particles, with the reaction of the ground, of other bodies and of pins, (n, 3) [N]."""
     contact_force: NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Environments of Gymnasium: every environment is an instance of a Batch.
+"""Environments of Gymnasium: every environment is an instance of a Batch::
 
     import aspic.gym
 
