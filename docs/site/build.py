@@ -1,9 +1,10 @@
-"""build.py PROGRAM MODULES FOLDER [--external] [SCENE …]: what scripts/docs.sh runs after it has built the program and the Python package.
+"""build.py PROGRAM MODULES FOLDER [--external] [SCENE …]: builds the site, for scripts/docs.sh.
 
-FOLDER/xml is what Doxygen finds, FOLDER/source what Sphinx reads: the pages of the repository with the files that they link to, and a page
-for each scene and each part of the APIs. FOLDER/pages has runs of the scenes: recorded ones and, if the program has the module of
-scripts/wasm.sh, live ones. FOLDER/html is the site.
+PROGRAM is aspic; MODULES has the Python package; without scenes, all have pages. The folder gets xml, from Doxygen;
+source, for Sphinx: the pages of the repository with the files that they link to, a page for each scene, the APIs;
+pages, runs of the scenes: recorded ones and, if the program has the module of scripts/wasm.sh, live ones; html, the site.
 """
+
 import json
 import os
 import re
@@ -11,40 +12,53 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
-from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM, MODULES, FOLDER = sys.argv[1], sys.argv[2], Path(sys.argv[3]).resolve()
 SOURCE, PAGES = FOLDER / "source", FOLDER / "pages"
 sys.path.insert(0, MODULES)
-import aspic  # noqa: E402
-import aspic.gym  # noqa: E402
+import api  # noqa: E402
 
 # Smaller bodies where a page would be long, or slow in a browser.
 SMALLER = {
-    "large-cube": ["--set", "cube[0].particles-per-edge=24", "--fps", "30"],
-    "heap": ["--set", "simulation.timestep=0.002", *(f"--set=cube[{i}].particles-per-edge=3" for i in range(28)), "--fps", "30"],
+    "large-cube": ["--set=cube[0].particles-per-edge=24"],
+    "heap": ["--set=simulation.timestep=0.002", *(f"--set=cube[{i}].particles-per-edge=3" for i in range(28))],
 }
-PYTHON = {
-    "Scenes": ["load", "scenes", "parameters", "Scene", "BuiltinScene", "Parameter"],
-    "Simulations": ["Simulation", "resume", "Advance", "SolveStatistics", "Pull", "Body", "Ball", "Skin", "Measures", "Quantities", "Springs"],
-    "States": ["State", "compare", "Difference", "QuantityDifference"],
-    "Trajectories": ["Trajectory", "BatchTrajectory", "Energy", "Diagnostic"],
-    "Batches": ["Batch", "Instance"],
-    "Sweeps": ["sweep", "collect", "Table"],
-    "Devices": ["devices", "Device"],
-    "Errors and warnings": ["Error", "ErrorCode", "UsageError", "SceneError", "DivergedError", "DeviceError", "FileError", "CheckError",
-                            "InterruptedRun", "RunWarning", "StepWarning", "OverlapWarning", "ConvergenceWarning"],
-}  # fmt: skip
-# Members of bases that are not public, and of no others.
-MEMBERS = """   :members:
-   :show-inheritance:
-   :inherited-members: object, tuple, int, Enum, BaseException, OSError, Error, Mapping, ndarray, BatchEnv, SingleEnv, Env, VectorEnv
+NOTE = """
+:::{note}
+This site was built without the WebAssembly module, so the runs are recorded.
+For simulations in the browser, run `scripts/wasm.sh` and then `scripts/docs.sh`.
+:::
 """
-GYM = ["BatchEnv", "SingleEnv", "Walk", "WalkEnv", "walker", "Crawl", "CrawlEnv", "crawler"]
+SCENES = """# Scenes
+
+Every built-in scene, in the browser.
+A *live* page computes the run there, and you can change parameters while it moves.
+A *recorded* page shows a run that was computed before.
+[A run as a page](../docs/page.md) describes both.
+"""
+SCENE = """# {name}
+
+{description}
+{smaller}
+<iframe class="run" src="../{shown}/{name}.html" title="{name}, {shown}" loading="lazy"></iframe>
+
+Open this run alone: {links}.
+{note}
+```sh
+aspic view {name}                      # in a window
+aspic run {name} --video {name}.mp4    # as a film
+```
+
+## The scene file
+
+`aspic scene show {name}` prints it; [the reference](../docs/scene-reference.md) explains every key.
+
+```toml
+{text}```
+"""
 
 
 def write(place: str, text: str) -> None:
@@ -53,8 +67,8 @@ def write(place: str, text: str) -> None:
     path.write_text(text)
 
 
-def toctree(entries: Iterable[str], caption: str = "", options: str = ":hidden:") -> str:
-    return "\n".join(["", "```{toctree}", options, *([f":caption: {caption}"] if caption else []), *entries, "```", ""])
+def toctree(entries: Iterable[str], option: str) -> str:
+    return "\n".join(["", "```{toctree}", option, *entries, "```", ""])
 
 
 def copy_page(page: Path, place: str, more: str = "") -> None:
@@ -73,76 +87,26 @@ def copy_page(page: Path, place: str, more: str = "") -> None:
     write(place, text + more)
 
 
-def documents() -> None:
-    """The pages of the repository; docs/README.md, the map of them, is the navigation."""
-    trees, pages = [], set((ROOT / "docs").glob("*.md"))
+def write_documents() -> None:
+    """The pages of the repository. docs/README.md, the list of them, is the navigation."""
+    navigation, pages = "", set((ROOT / "docs").glob("*.md")) - {ROOT / "docs/README.md"}
+    generated = {"Start": ["scenes/index"], "Reference": ["python/index", "cpp/index"]}
     for section in re.split(r"^## ", (ROOT / "docs/README.md").read_text(), flags=re.M)[1:]:
-        entries = []
+        title, entries = section.split("\n")[0], []
         for name, link in re.findall(r"\[([^\]]+)\]\(([^)#]+\.md)\)", section):
             page = (ROOT / "docs" / link).resolve()
             pages.add(page)
             entries.append(f"{name} <{page.relative_to(ROOT).with_suffix('')}>")
-        extra = {"Start": ["scenes/index"], "Reference": ["python/index", "cpp/index"]}.get(section.split("\n")[0], [])
-        trees.append(toctree(entries + extra, section.split("\n")[0]))
-    copy_page(ROOT / "README.md", "index.md", "".join(trees))
-    for page in pages - {ROOT / "docs/README.md"}:
+        navigation += toctree([":hidden:", *entries, *generated.get(title, [])], f":caption: {title}")
+    copy_page(ROOT / "README.md", "index.md", navigation)
+    for page in pages:
         copy_page(page, str(page.relative_to(ROOT)))
 
 
-def reference(name: str, title: str, lead: str, pages: dict[str, str]) -> None:
-    """Pages of an API, by file name, and the page that lists them."""
+def write_api(folder: str, title: str, about: str, pages: dict[str, str]) -> None:
     for page, text in pages.items():
-        write(f"{name}/{page}.rst", text)
-    write(f"{name}/index.md", f"# {title}\n\n{lead}\n" + toctree(pages, options=":maxdepth: 1"))
-
-
-def heading(title: str) -> str:
-    return f"{title}\n{'=' * len(title)}\n\n"
-
-
-def python_reference() -> None:
-    if difference := {name for names in PYTHON.values() for name in names} ^ set(aspic.__all__):
-        sys.exit(f"docs/site/build.py and aspic.__all__ differ in {', '.join(sorted(difference))}.")
-    if difference := {*GYM, "AutoresetMode"} ^ set(aspic.gym.__all__):
-        sys.exit(f"docs/site/build.py and aspic.gym.__all__ differ in {', '.join(sorted(difference))}.")
-
-    def part(module: str, names: list[str]) -> str:
-        kinds = [(name, "class" if isinstance(getattr(sys.modules[module], name), type) else "function") for name in names]
-        return f".. currentmodule:: {module}\n\n" + "".join(f".. auto{kind}:: {name}\n{MEMBERS * (kind == 'class')}"
-                                                            f"{'   :undoc-members:' * (name == 'ErrorCode')}\n\n" for name, kind in kinds)
-
-    pages = {title.split()[0].lower(): heading(title) + part("aspic", names) for title, names in PYTHON.items()}
-    pages["gym"] = heading("aspic.gym") + ".. automodule:: aspic.gym\n\n" + part("aspic.gym", GYM)
-    reference("python", "Python API", "The public names of the package `aspic`. [The guide](../docs/python.md) teaches its use.", pages)
-
-
-def cpp_reference() -> None:
-    """A page for each header, of Doxygen's XML: its declarations in order."""
-    xml = FOLDER / "xml"
-    rows: dict[str, list[tuple[int, str]]] = {}
-
-    def add(place: ElementTree.Element, directive: str) -> None:
-        rows.setdefault(Path(place.get("file", "")).name, []).append((int(place.get("line", "0")), directive))
-
-    for found in ElementTree.parse(xml / "index.xml").findall("compound"):
-        if found.get("kind") not in ("class", "struct"):
-            continue
-        compound = ElementTree.parse(xml / f"{found.get('refid')}.xml").find("compounddef")
-        name = compound.findtext("compoundname")
-        if name.count("::") == 1:  # others are shown in theirs
-            add(compound.find("location"), f"doxygen{found.get('kind')}:: {name}\n   :members:\n   :undoc-members:")
-    members = ElementTree.parse(xml / "namespaceaspic.xml").findall("compounddef/sectiondef/memberdef")
-    count = Counter(member.findtext("name") for member in members)
-    for member in members:
-        name, kind = member.findtext("name"), member.get("kind")
-        arguments = member.findtext("argsstring") if kind == "function" and count[name] > 1 else ""
-        add(member.find("location"), f"doxygen{kind}:: aspic::{name}{arguments}")
-    pages = {}
-    for header, directives in sorted(rows.items()):
-        about = re.match(r"#pragma once\n((?:// .*\n)+)", (ROOT / "include/aspic" / header).read_text())[1].replace("// ", "")
-        pages[Path(header).stem] = heading(f"aspic/{header}") + about + "".join(f"\n.. {row}\n" for _, row in sorted(directives))
-    reference("cpp", "C++ API", "The public headers of `libaspic`; `aspic/aspic.h` includes them all. "
-              "[The guide](../docs/library.md) teaches their use.", pages)
+        write(f"{folder}/{page}.rst", text)
+    write(f"{folder}/index.md", f"# {title}\n\n{about}\n" + toctree(pages, ":maxdepth: 1"))
 
 
 def run(*words: str) -> str:
@@ -153,90 +117,78 @@ def run(*words: str) -> str:
     return done.stdout
 
 
-def scene_pages(name: str, live: bool) -> None:
-    """The recorded page, the live one and the picture, where they are older than the program."""
-    smaller = SMALLER.get(name, [])
-    since = Path(PROGRAM).stat().st_mtime
-    made = [("--page", PAGES / f"recorded/{name}.html"), *([("--page-live", PAGES / f"live/{name}.html")] if live else [])]
-    old = [(option, str(page)) for option, page in made if not page.exists() or page.stat().st_mtime < since]
+def has_module() -> bool:
+    """Whether the program can write live pages."""
+    with tempfile.TemporaryDirectory() as work:
+        words = ["run", "cube-plane", "--steps", "1", "--page-live", f"{work}/page.html"]
+        return subprocess.run([PROGRAM, *words], capture_output=True).returncode == 0
+
+
+def make_runs(name: str, kinds: dict[str, str]) -> None:
+    """The pages of a scene's run and its picture, where the program is newer."""
+    since, smaller = Path(PROGRAM).stat().st_mtime, SMALLER.get(name, [])
+    places = {option: PAGES / kind / f"{name}.html" for kind, option in kinds.items()}
+    old = [f"{option}={page}" for option, page in places.items() if not page.exists() or page.stat().st_mtime < since]
     if old:
-        run("run", name, *smaller, "--force", *(word for pair in old for word in pair))
-    picture = SOURCE / f"images/{name}.jpg"
-    if (drawn := ROOT / f"docs/images/{name}.jpg").exists():
-        shutil.copy(drawn, picture)
-        return
-    frames = FOLDER / f"frames-{name}"
-    if not frames.exists() or frames.stat().st_mtime < since:
-        run("run", name, *smaller[:-2], "--force", "--duration", "0.7", "--fps", "1", "--size", "960x540", "--frames-format", "jpg",
-            "--frames", str(frames))
-    shutil.copy(sorted(frames.iterdir())[-1], picture)
+        run("run", name, *smaller, *(["--fps", "30"] if smaller else []), "--force", *old)
+    picture = ROOT / f"docs/images/{name}.jpg"
+    if not picture.exists():
+        frames = FOLDER / f"frames-{name}"
+        if not frames.exists() or frames.stat().st_mtime < since:
+            size = ["--fps", "1", "--size", "960x540", "--frames-format", "jpg"]
+            run("run", name, *smaller, "--force", "--duration", "0.7", *size, "--frames", str(frames))
+        picture = sorted(frames.iterdir())[-1]
+    shutil.copy(picture, SOURCE / f"images/{name}.jpg")
 
 
-def scenes(names: list[str]) -> None:
-    rows = json.loads(run("scene", "list", "--json"))["scenes"]
-    if unknown := (set(names) | set(SMALLER)) - {row["name"] for row in rows}:
+def write_scenes(wanted: list[str]) -> None:
+    scenes = json.loads(run("scene", "list", "--json"))["scenes"]
+    if unknown := (set(wanted) | set(SMALLER)) - {scene["name"] for scene in scenes}:
         sys.exit(f"There is no built-in scene {', '.join(sorted(unknown))}.")
-    rows = [row for row in rows if not names or row["name"] in names]
-    for folder in (SOURCE / "images", PAGES / "recorded", PAGES / "live"):
+    scenes = [scene for scene in scenes if not wanted or scene["name"] in wanted]
+    kinds = {"live": "--page-live", "recorded": "--page"} if has_module() else {"recorded": "--page"}
+    for folder in (SOURCE / "images", PAGES / "live", PAGES / "recorded"):
         folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as work:  # whether the program has the module
-        live = not subprocess.run([PROGRAM, "run", "cube-plane", "--steps", "1", "--page-live", f"{work}/page.html"], capture_output=True).returncode
-    needed = "" if live else ("\n:::{note}\nThis site was built without the WebAssembly module, so that runs are recorded. For simulations in "
-                              "the browser, run `scripts/wasm.sh` and build the site again.\n:::\n")
-    gallery = ["# Scenes", "", "Every built-in scene, in the browser. A *live* page computes the run there, and its parameters can be changed "
-               "while it moves. A *recorded* page shows a run that was computed before. "
-               "[A run as a page](../docs/page.md) describes both.", needed]
-    group = ""
-    for row in rows:
-        name, words = row["name"], row["description"]
-        scene_pages(name, live)
-        if row["group"] != group:
-            gallery += ([":::"] if group else []) + ["", f"## {row['group']}", "", ":::{container} scenes"]
-            group = row["group"]
-        gallery.append(f"- [![](../images/{name}.jpg) **{name}**]({name}.md)<br>{words}")
-        shown = "live" if live else "recorded"
-        links = [f'<a href="../{kind}/{name}.html">{kind}</a>' for kind in (("live", "recorded") if live else ("recorded",))]
+    for page in PAGES.glob("*/*.html"):
+        if page.parent.name not in kinds or page.stem not in {scene["name"] for scene in scenes}:
+            page.unlink()
+    shown, note, group = next(iter(kinds)), "" if "live" in kinds else NOTE, ""
+    gallery = SCENES + note
+    for scene in scenes:
+        name, description = scene["name"], scene["description"]
+        make_runs(name, kinds)
+        if scene["group"] != group:
+            gallery += ":::\n" * bool(group) + f"\n## {scene['group']}\n\n:::{{container}} scenes\n"
+            group = scene["group"]
+        gallery += f"- [![](../images/{name}.jpg) **{name}**]({name}.md)<br>{description}\n"
+        links = ", ".join(f'<a href="../{kind}/{name}.html">{kind}</a>' for kind in kinds)
         smaller = "\nThe run shown has fewer particles than the scene.\n" if name in SMALLER else ""
-        write(f"scenes/{name}.md", f"""# {name}
-
-{words}
-{smaller}
-<iframe class="run" src="../{shown}/{name}.html" title="{name}, {shown}" loading="lazy"></iframe>
-
-Open this run alone: {", ".join(links)}.
-{needed}
-```sh
-aspic view {name}                      # in a window
-aspic run {name} --video {name}.mp4    # as a film
-```
-
-## The scene file
-
-`aspic scene show {name}` prints it; [the reference](../docs/scene-reference.md) explains every key.
-
-```toml
-{(ROOT / f"assets/scenes/{name}.toml").read_text()}```
-""")
-    write("scenes/index.md", "\n".join(gallery + [":::", toctree([row["name"] for row in rows])]))
+        text = (ROOT / f"assets/scenes/{name}.toml").read_text()
+        write(f"scenes/{name}.md", SCENE.format_map(locals()))
+    write("scenes/index.md", gallery + ":::\n" + toctree([scene["name"] for scene in scenes], ":hidden:"))
 
 
 def sphinx(builder: str) -> None:
-    subprocess.run([sys.executable, "-m", "sphinx", "-b", builder, "-q", "-W", "-E", "-d", FOLDER / "doctrees", "-c", ROOT / "docs/site",
-                    "-D", f"breathe_projects.aspic={FOLDER / 'xml'}", "-D", f"html_extra_path={PAGES}", SOURCE, FOLDER / builder],
-                   env=os.environ | {"PYTHONPATH": MODULES}, check=True)  # fmt: skip
+    # Everything is read again, since Sphinx does not repeat the warnings of pages that it read before.
+    command = [sys.executable, "-m", "sphinx", "-b", builder, "-q", "-W", "-E", "-c", str(ROOT / "docs/site")]
+    folders = ["-D", f"breathe_projects.aspic={FOLDER / 'xml'}", "-D", f"html_extra_path={PAGES}"]
+    folders += ["-d", str(FOLDER / "doctrees"), str(SOURCE), str(FOLDER / builder)]
+    subprocess.run([*command, *folders], env=os.environ | {"PYTHONPATH": MODULES}, check=True)
 
 
 def main() -> None:
-    external, names = "--external" in sys.argv[4:], [word for word in sys.argv[4:] if word != "--external"]
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    subprocess.run(["doxygen", "-"], input=f"{(ROOT / 'docs/site/Doxyfile').read_text()}\nOUTPUT_DIRECTORY = {FOLDER}\n",
-                   text=True, cwd=ROOT, check=True)  # fmt: skip
-    for old in (SOURCE, FOLDER / "html"):
+    external, scenes = "--external" in sys.argv[4:], [word for word in sys.argv[4:] if word != "--external"]
+    for old in (FOLDER / "xml", SOURCE, FOLDER / "html"):
         shutil.rmtree(old, ignore_errors=True)
-    documents()
-    python_reference()
-    cpp_reference()
-    scenes(names)
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    doxyfile = (ROOT / "docs/site/Doxyfile").read_text() + f"\nOUTPUT_DIRECTORY = {FOLDER}\n"
+    subprocess.run(["doxygen", "-"], input=doxyfile, text=True, cwd=ROOT, check=True)
+    write_documents()
+    about = "The public names of the package `aspic`. [The guide](../docs/python.md) teaches its use."
+    write_api("python", "Python API", about, api.python_pages())
+    about = "`aspic/aspic.h` includes all headers. [The guide](../docs/library.md) teaches the use of the library."
+    write_api("cpp", "C++ API", about, api.cpp_pages(ROOT / "include/aspic", FOLDER / "xml"))
+    write_scenes(scenes)
     sphinx("html")
     subprocess.run([sys.executable, ROOT / "docs/site/links.py", FOLDER / "html"], check=True)
     if external:

@@ -1,4 +1,5 @@
-"""links.py SITE: exit code 1, and their names, if links within a built site lead nowhere, or a page loads something from elsewhere."""
+"""links.py SITE: fails if a link within the site leads nowhere, or if a page loads something from elsewhere."""
+
 import re
 import sys
 from html.parser import HTMLParser
@@ -37,7 +38,8 @@ for page, found in pages.items():
     for link in found.links:
         path, _, place = unquote(link).partition("#")
         target = (page.parent / path.partition("?")[0]).resolve() if path else page
-        if not target.is_relative_to(site) or not target.is_file() or (target in pages and place not in pages[target].places):
+        known = target.is_relative_to(site) and target.is_file()
+        if not known or (target in pages and place not in pages[target].places):
             faults.append(f"{where}: {link} leads nowhere")
 print("\n".join(sorted(faults)), end="\n" * bool(faults), file=sys.stderr)
 sys.exit(1 if faults or not pages else 0)
