@@ -54,7 +54,7 @@ step_format() { files '*.cpp' '*.h' | xargs clang-format --dry-run --Werror; }
 
 step_lints() {
   aspic_build ON repository_tests gpu_tests scene_tests || return 1
-  ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|FileSizes|Rooms|PreciseLint|PortableLint|Reference)\.'
+  ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|PageList|FileSizes|Rooms|PreciseLint|PortableLint|Reference)\.'
 }
 
 # C++ files of the last day's commits, the newest first, and those that are not committed yet.
