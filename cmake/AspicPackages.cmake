@@ -1,6 +1,6 @@
 # Debian packages by CPack: what scripts/package.sh makes with the preset package. The components of an installation are
 #   programs  aspic            both programs, manual pages, completion, desktop entry, icon, documents
-#   runtime   libaspic0.2      the shared library, named by its soname
+#   runtime   libaspic0.3      the shared library, named by its soname
 #   library   libaspic-dev     headers, static library, CMake package, pkg-config file
 #   python    python3-aspic    the module for the distribution's own Python
 
@@ -126,7 +126,7 @@ aspic_package(python python3-aspic SECTION python LICENCES "nanobind=${nanobind_
   RECOMMENDS "${device}" SUGGESTS "aspic (= ${version}), ffmpeg, python3-xarray"
   DESCRIPTION "soft bodies of point masses and springs - Python module\n${about}\n.\nThis package has the module aspic: scenes, simulations, batches, arrays of\nnumpy and pictures for notebooks.")
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/debian/METADATA"
-     CONTENT "Metadata-Version: 2.1\nName: aspic\nVersion: ${PROJECT_VERSION}\nSummary: ${PROJECT_DESCRIPTION}\nRequires-Python: ==${python}.*\nRequires-Dist: numpy\n")
-install(FILES "${PROJECT_BINARY_DIR}/debian/METADATA" DESTINATION "lib/python3/dist-packages/aspic-${PROJECT_VERSION}.dist-info" COMPONENT python)
+     CONTENT "Metadata-Version: 2.1\nName: aspic-softbody\nVersion: ${PROJECT_VERSION}\nSummary: ${PROJECT_DESCRIPTION}\nRequires-Python: ==${python}.*\nRequires-Dist: numpy\n")
+install(FILES "${PROJECT_BINARY_DIR}/debian/METADATA" DESTINATION "lib/python3/dist-packages/aspic_softbody-${PROJECT_VERSION}.dist-info" COMPONENT python)
 
 include(CPack)

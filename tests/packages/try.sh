@@ -44,7 +44,7 @@ for kind in shared static; do
   cat >lab/CMakeLists.txt <<END
 cmake_minimum_required(VERSION 3.25)
 project(lab LANGUAGES CXX)
-find_package(aspic 0.2 REQUIRED COMPONENTS $kind)
+find_package(aspic 0.3 REQUIRED COMPONENTS $kind)
 add_executable(lab minimal.cpp)
 target_link_libraries(lab PRIVATE aspic::aspic)
 END
