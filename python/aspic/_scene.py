@@ -141,7 +141,7 @@ class Scene(Buildable):
 
     @property
     def bodies(self) -> list[str]:
-        """The names of the bodies: ``cube[0]``, ``goal-net[0]``, ``cloth[0]``."""
+        """The names of the bodies: ``cube[0]``, ``voxels[0]``, ``goal-net[0]``, ``cloth[0]``."""
         return self._core.bodies()
 
     @property

@@ -15,7 +15,7 @@ import pytest
 from conftest import needs_pictures
 
 gymnasium: Any = pytest.importorskip(
-    "gymnasium", reason="gymnasium is not installed: pip install 'aspic[gym]' brings it"
+    "gymnasium", reason="gymnasium is not installed: pip install gymnasium"
 )
 import aspic.gym  # noqa: E402
 from aspic.gym import AutoresetMode, BatchEnv, Crawl, CrawlEnv, Walk, WalkEnv  # noqa: E402

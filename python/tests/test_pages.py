@@ -28,7 +28,7 @@ def blocks(page: str) -> list[tuple[int, str]]:
     return found
 
 
-PAGES = ["docs/python.md", "docs/sweeps.md", "README.md"]
+PAGES = ["docs/python.md", "docs/sweeps.md", "python/README.md", "README.md"]
 
 
 def test_no_page_with_python_is_forgotten() -> None:
@@ -53,14 +53,20 @@ def test_every_block_of_a_page_runs(page: str) -> None:
 def test_the_readme_prints_the_hash_of_the_program_on_every_backend(
     capsys: pytest.CaptureFixture[str], program: Callable[..., dict[str, Any]]
 ) -> None:
-    words = ["--set", "cube[0].structural.stiffness=4000", "--steps", "1500"]
-    wanted = program("run", "cube-plane", *words, "--backend", "cpu")["state_hash"]
-    text = re.sub(r"^picture = .*$", "", "".join(block for _, block in blocks("README.md")), flags=re.M)
+    text = re.sub(r"^image = .*$", "", "".join(block for _, block in blocks("README.md")), flags=re.M)
     for backend in ("reference", "cpu", "gpu"):
         if backend == "gpu":
             needs_pictures()
-        exec(text.replace("aspic.Simulation(scene)", f"aspic.Simulation(scene, {backend!r})"), {})
-        assert capsys.readouterr().out.split()[-1] == wanted
+        names: dict[str, Any] = {}
+        exec(text.replace("aspic.Simulation(scene)", f"aspic.Simulation(scene, {backend!r})"), names)
+        walked, last = capsys.readouterr().out.splitlines()
+        assert f"# {walked}" in text
+        if backend == "reference":
+            names["scene"].save("walker.toml")
+            names["robot"].save_inputs("gait.toml")
+            words = ["walker.toml", "--replay", "gait.toml", "--steps", "4000", "--backend", "cpu"]
+            wanted = program("run", *words)["state_hash"]
+        assert last.split()[-1] == wanted
 
 
 EXAMPLES = {

@@ -15,10 +15,10 @@ quietly() { "$@" >"$place/log" 2>&1 || { cat "$place/log"; echo "$* failed"; exi
 offline=(--quiet --disable-pip-version-check --no-index --find-links "$place/kept")
 
 (cd "$root" && quietly "$python" -c "from scikit_build_core.build import build_sdist; print(build_sdist('$place/sdist'))")
-sdist=$(echo "$place"/sdist/aspic-*.tar.gz)
+sdist=$(echo "$place"/sdist/aspic_softbody-*.tar.gz)
 [ "$(stat -c %s "$sdist")" -lt 10000000 ] || { echo "The source distribution has $(stat -c %s "$sdist") bytes."; exit 1; }
 tar -xf "$sdist" -C "$place"
-source=$(echo "$place"/aspic-*/)
+source=$(echo "$place"/aspic_softbody-*/)
 quietly "$python" -m venv "$place/builder"
 quietly "$place/builder/bin/pip" install "${offline[@]}" scikit-build-core nanobind nanobind-backend
 # make_wheel FOLDER argument …
@@ -28,7 +28,7 @@ make_wheel() {
   quietly "$place/builder/bin/pip" wheel "${offline[@]}" --no-deps --no-build-isolation --wheel-dir "$folder" "$@" "$source"
   wheel=$(echo "$folder"/*.whl)
   echo "$(basename "$wheel"): $(stat -c %s "$wheel") bytes after $SECONDS s"
-  [[ $wheel == */aspic-*-cp310-abi3-linux_*.whl ]] || { echo "The wheel is not for the stable ABI of Python 3.10."; exit 1; }
+  [[ $wheel == */aspic_softbody-*-cp310-abi3-linux_*.whl ]] || { echo "The wheel is not for the stable ABI of Python 3.10."; exit 1; }
 }
 quietly cmake --install "$build" --prefix "$place/library" --component library
 make_wheel "$place/quick" --config-settings "cmake.define.ASPIC_INSTALLED=$place/library"
@@ -54,9 +54,9 @@ if readelf -d "$place/content/aspic/_aspic.abi3.so" | grep -E 'NEEDED.*lib(EGL|G
 fi
 
 quietly "$python" -m venv "$place/user"
-quietly "$place/user/bin/pip" install "${offline[@]}" aspic --find-links "$place/wheel"
+quietly "$place/user/bin/pip" install "${offline[@]}" aspic-softbody --find-links "$place/wheel"
 installed=$("$place/user/bin/pip" list --disable-pip-version-check --format=freeze | grep -vE '^(pip|setuptools|wheel)==' | cut -d= -f1 | sort | tr '\n' ' ')
-[ "$installed" = "aspic nanobind-backend numpy " ] || { echo "Installing aspic brought $installed"; exit 1; }
+[ "$installed" = "aspic-softbody nanobind-backend numpy " ] || { echo "Installing aspic-softbody brought $installed"; exit 1; }
 # One wheel for every Python: another one than the builder's, if there is one.
 for other in python3.1{0..4}; do
   [ "$("$other" -c 'import sys; print(sys.version_info[:2])' 2>/dev/null)" != "$("$python" -c 'import sys; print(sys.version_info[:2])')" ] || continue
