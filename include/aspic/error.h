@@ -14,7 +14,7 @@ namespace aspic {
 enum class ErrorCode {
   check_failed = 1,    ///< a comparison or verification failed
   usage = 2,           ///< an argument is wrong
-  scene_rejected = 3,  ///< the scene is wrong, too large, or asks for what is not built yet
+  scene_rejected = 3,  ///< the scene is wrong or too large
   no_device = 4,       ///< no usable GL device
   diverged = 5,        ///< the simulation left the range of sane numbers
   io = 6,              ///< a file could not be read or written

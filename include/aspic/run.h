@@ -47,7 +47,7 @@ struct BackendChoice {
 /// leaves open is as in `asked`, where the backend has it. Error (usage): an unknown word.
 ASPIC_API Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& asked = {});
 
-/// Every word of parse_backend(): "auto, gpu, reference".
+/// Every word of parse_backend(): "auto, gpu, cpu, reference".
 ASPIC_API std::string backend_words();
 
 /// A solver with what a report says of it. The solver holds what it needs, so that all of this may be moved,

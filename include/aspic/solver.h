@@ -70,7 +70,7 @@ ASPIC_API std::string_view name_of(Arithmetic arithmetic);  ///< "exact", "fast"
 
 /// How spring forces reach particles on a GPU. Every path gives the same bits.
 enum class ForcePath {
-  automatic,  ///< lattice where the model has a complete cube, else gather
+  automatic,  ///< lattice where the model has cubes or bodies of cells, else gather
   lattice,    ///< gather on cubes and boxes without connectivity in memory, and as below on all else
   gather,     ///< one invocation per particle evaluates its springs, everything fused
   per_spring  ///< one invocation per spring writes its force, a second pass sums

@@ -135,7 +135,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add(c, "--beside", "KEY=VALUE", run.differences,
       "a further run with this difference, e.g. integrator=implicit-euler, h=0.002; up to three");
   add(c, "--resume", "FILE", run.resume_file,
-      "continue from a checkpoint; --steps and --duration count from its start");
+      "continue from a checkpoint; --steps and --duration count from the scene's start");
   add(c, "--replay", "FILE", run.replay_file, "pulls and pins by step, as the window records them");
   c->add_flag("--force", run.force, "overwrite files");
   add_json(c, run.json, "summary on stdout as JSON");

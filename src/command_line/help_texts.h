@@ -100,15 +100,15 @@ docs/sweeps.md the folder of --runs.)";
 
 inline constexpr const char* report_examples = R"(Examples:
   aspic report cube-plane --out report              about a minute on two processors
-  aspic report my-scene.toml --out report --thorough
+  aspic report my-scene.toml --out mine --thorough
   aspic report cube-plane --only stability --only contact --out part
-  aspic report course-2021-plane --set author=309553010 --outline course --out report
+  aspic report course-2021-plane --set author=Ada --outline course --out outline
 
 report.html is one file, light or dark as the reader's system is; report.md has its pictures in figures/; report.pdf
 is made where chromium, weasyprint or wkhtmltopdf is installed. The numbers behind each figure are in data/.)";
 
 inline constexpr const char* verify_examples = R"(Examples:
-  aspic verify                                      everything, a few minutes
+  aspic verify                                      all checks (docs/verification.md has the time)
   aspic verify --quick
   aspic verify --only equality --only repeat --require-gpu
 

@@ -78,7 +78,7 @@ std::string scene_reference(std::string_view option) {
       "it means,\n"
       "what is allowed and the default. Units are SI. Every key can be set on the command "
       "line as well,\n"
-      "by its path: `{0} simulation.timestep=0.002`, `{0} cube[0].shear.stiffness=10`, `{0} "
+      "by its path: `{0} simulation.timestep=0.002`, `{0} 'cube[0].shear.stiffness=10'`, `{0} "
       "contact.model=course`,\n"
       "`{0} 'cube[0].pinned=[\"top\", 3]'`. A value is written as in the file; a single word needs no "
       "quotation marks.\n"

@@ -1,4 +1,4 @@
-// The window as README shows it. With the environment variable ASPIC_WINDOW_PICTURES the pictures go to that
+// The window as docs/gallery.md shows it. With the environment variable ASPIC_WINDOW_PICTURES the pictures go to that
 // directory; scripts/gallery.sh does so.
 #include <fmt/format.h>
 
