@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Redraws the README's pictures in docs/images: the last frame of a short run of each scene, and the window as
+# Draws the images of docs/gallery.md and the README's animation: the last frame of a short run of each scene, and the window as
 # its tests see it.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
@@ -25,6 +25,21 @@ draw() {
   fi
   echo "docs/images/$name.jpg" >&2
 }
+
+# move PART SCENE [option …]: frames of a part of the README's animation
+move() {
+  local part=$1
+  shift
+  "$aspic_build_dir/aspic" run "$@" --backend cpu --size 320x360 --no-text --fps 20 --frames "$work/opening-$part" >&2
+}
+move 0 jelly-figure --duration 3 --speed 0.5 --view colour=strain --view 'camera={position=[6.2,9.5,12.5],target=[0.3,4,0.2],fov=27}'
+move 1 walker --duration 6 --view colour=actuation --view 'scale={from=-0.2,to=0.2}' \
+  --view 'camera={position=[0.85,0.5,1.2],target=[0,0.19,0],fov=40}'
+move 2 knot --duration 6 --view 'camera={position=[1.6,1.9,4.6],target=[0,1.75,0],fov=42}'
+ffmpeg -v error -y -framerate 20 -i "$work/opening-0/frame-%06d.png" -framerate 20 -i "$work/opening-1/frame-%06d.png" \
+  -framerate 20 -i "$work/opening-2/frame-%06d.png" -filter_complex hstack=3 -frames:v 120 -c:v libwebp_anim -quality 60 -loop 0 \
+  "$images/opening.webp"
+echo "docs/images/opening.webp" >&2
 
 draw cube-plane 1.47 cube-plane
 draw cube-tilted-plane 1.3 cube-tilted-plane

@@ -192,6 +192,7 @@ struct Block {
   std::string where;     ///< "README.md:33", its first line
   std::string language;  ///< "toml"; empty: none is said
   std::string text;
+  std::string before;  ///< the last line of text above it
 };
 
 /// The fenced blocks of a page.
@@ -200,15 +201,18 @@ std::vector<Block> blocks_of_page(const fs::path& page) {
   std::ifstream file(page);
   bool within = false;
   int number = 0;
+  std::string before;
   for (std::string line; std::getline(file, line);) {
     ++number;
     if (line.starts_with("```")) {
       within = !within;
       if (within)
         blocks.push_back({fs::relative(page, ASPIC_SOURCE_DIR).string() + ":" + std::to_string(number),
-                          line.substr(3), ""});
+                          line.substr(3), "", before});
     } else if (within) {
       blocks.back().text += line + "\n";
+    } else if (!line.empty()) {
+      before = line;
     }
   }
   return blocks;
@@ -290,7 +294,8 @@ class Reader {
       if (entry.is_regular_file() && ending != ".toml" && ending != ".aspic" && ending != ".txt")
         fs::remove(entry.path());
     }
-    for (const char* const made : {"out", "report", "part", "map", "rest"}) fs::remove_all(dir_.file(made));
+    for (const char* const made : {"out", "report", "part", "map", "rest", "mine", "outline"})
+      fs::remove_all(dir_.file(made));
     const std::string command = shortened(example.command, checks);
     test::ProcessOptions shell;
     shell.program = "/bin/sh";
@@ -367,9 +372,9 @@ TEST(Examples, ScenesOfDocumentsAreAccepted) {
   EXPECT_GE(scenes, 2);
 }
 
-// README shows what an error in line 20 looks like.
-TEST(Examples, ErrorOfTheReadmeIsWhatItSays) {
-  const auto blocks = blocks_of_page(fs::path(ASPIC_SOURCE_DIR) / "README.md");
+// The page of commands shows what an error in line 20 looks like.
+TEST(Examples, ErrorOfCommandsPageIsWhatItSays) {
+  const auto blocks = blocks_of_page(fs::path(ASPIC_SOURCE_DIR) / "docs/commands.md");
   const auto shown = std::ranges::find_if(
       blocks, [](const Block& b) { return b.text.starts_with("aspic: jelly.toml:20:16:"); });
   ASSERT_NE(shown, blocks.end());
@@ -393,6 +398,60 @@ TEST(Examples, OfCoursePageRun) {
     reader.run(example, Checks::run);
   }
   EXPECT_GE(rows, 15u);
+}
+
+/// The line of "README.md:33".
+int line_of(const std::string& where) {
+  return std::stoi(where.substr(where.find(':') + 1));
+}
+
+/// A summary without the lines that differ between machines.
+Words same_everywhere(const std::string& summary) {
+  Words kept = test::lines(summary);
+  std::erase_if(kept, [](const std::string& line) {
+    return std::ranges::any_of(Words{"backend ", "device ", "took "},
+                               [&](const std::string& word) { return line.starts_with(word); });
+  });
+  return kept;
+}
+
+// Commands below the README's set-up, in its order, in one folder that only they and the scene of the page
+// fill. Where the page shows an output, the program's equals it.
+TEST(Examples, OfReadmeRunInOrderInAnEmptyFolder) {
+  const fs::path readme = fs::path(ASPIC_SOURCE_DIR) / "README.md";
+  const auto blocks = blocks_of_page(readme);
+  const auto examples = examples_of_page(readme);
+  EXPECT_GE(examples.size(), 15u);
+  Words shells = {"/bin/bash"};
+  if (fs::exists("/usr/bin/zsh")) shells.emplace_back("/usr/bin/zsh");
+  for (const std::string& program : shells) {
+    const test::TemporaryDirectory programs, folder;
+    fs::create_symlink(ASPIC_PROGRAM, programs.file("aspic"));
+    test::ProcessOptions shell;
+    shell.program = program;
+    shell.environment = {{"PATH", programs.path().string() + ":/usr/bin:/bin"}};
+    for (std::size_t i = 0; i < examples.size(); ++i) {
+      const int line = line_of(examples[i].where),
+                next = i + 1 < examples.size() ? line_of(examples[i + 1].where) : line + 1000;
+      const Block* output = nullptr;
+      for (const Block& block : blocks) {
+        std::smatch name;
+        if (line_of(block.where) < line && std::regex_search(block.before, name, std::regex("as `([^`]+)`")))
+          folder.write(name.str(1), block.text);
+        if (block.language == "text" && line_of(block.where) > line && line_of(block.where) < next)
+          output = &block;
+      }
+      if (is_excluded(examples[i])) continue;
+      const std::string command =
+          output ? examples[i].command : shortened(examples[i].command, Checks::listed);
+      const auto done = test::aspic({"-c", "cd '" + folder.path().string() + "' && " + command}, shell);
+      EXPECT_EQ(done.exit_code, 0) << program << ", " << examples[i].where << ": " << command << "\n"
+                                   << done.err << done.out;
+      if (output) {
+        EXPECT_EQ(same_everywhere(done.out), same_everywhere(output->text));
+      }
+    }
+  }
 }
 
 TEST(ExamplesInFull, OfHelpDraw) {
