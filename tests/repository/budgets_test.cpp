@@ -34,7 +34,9 @@ std::map<std::string, Budget> budgets() {
 /// `src/model` of src/model/state.h, `shaders` of all below it; a page is a module of its own.
 std::string module_of(const std::filesystem::path& file) {
   if (file.extension() == ".md")
-    return file.begin()->string() == "docs" || file == "README.md" ? file.string() : "";
+    return file.begin()->string() == "docs" || file == "README.md" || file == "CONTRIBUTING.md"
+               ? file.string()
+               : "";
   const std::string first = file.begin()->string();
   if (first == "shaders" || first == "include" || first == "python" || first == "scripts") return first;
   if (first != "src" && first != "tests") return "";

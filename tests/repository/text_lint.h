@@ -37,6 +37,8 @@ std::vector<std::filesystem::path> tracked_files(const std::filesystem::path& ro
 
 /// The most bytes that a tracked file may have: what is replaced stays in the repository's history for good.
 constexpr std::uintmax_t most_file_bytes = 150'000;
+/// The same for an animation (.webp).
+constexpr std::uintmax_t most_animation_bytes = 1'000'000;
 
 /// Those of the files that are larger, with their sizes, as `docs/a.jpg: 157896 bytes`.
 std::vector<std::string> too_large(const std::filesystem::path& root,

@@ -44,7 +44,7 @@ TEST(TextLint, AcceptsWhatIsThere) {
   EXPECT_THAT(rules_broken("docs/physics.md",
                            "`src/model/springs.h` [a](files.md) [b](physics.md#4-implicit-euler)\n"),
               ::testing::IsEmpty());
-  EXPECT_THAT(rules_broken("docs/physics.md", "[c](../README.md#two-commands) [d](https://example.org/)\n"),
+  EXPECT_THAT(rules_broken("docs/physics.md", "[c](../README.md#try-it) [d](https://example.org/)\n"),
               ::testing::IsEmpty());
 }
 
@@ -67,8 +67,10 @@ TEST(FileSizes, LargeFilesAreFound) {
   const test::TemporaryDirectory dir;
   dir.write("small.jpg", std::string(most_file_bytes, 'x'));
   dir.write("large.jpg", std::string(most_file_bytes + 1, 'x'));
+  dir.write("large.webp", std::string(most_animation_bytes + 1, 'x'));
+  dir.write("small.webp", std::string(most_animation_bytes, 'x'));
   EXPECT_THAT(too_large(dir.path(), tracked_files(dir.path())),
-              ::testing::ElementsAre("large.jpg: 150001 bytes"));
+              ::testing::ElementsAre("large.jpg: 150001 bytes", "large.webp: 1000001 bytes"));
 }
 
 TEST(FileSizes, EveryTrackedFileIsSmall) {
