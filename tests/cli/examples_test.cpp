@@ -436,7 +436,8 @@ TEST(Examples, OfReadmeRunInOrderInAnEmptyFolder) {
       const Block* output = nullptr;
       for (const Block& block : blocks) {
         std::smatch name;
-        if (line_of(block.where) < line && std::regex_search(block.before, name, std::regex("as `([^`]+)`")))
+        if (block.language == "toml" && line_of(block.where) < line &&
+            std::regex_search(block.before, name, std::regex("as `([^`]+)`")))
           folder.write(name.str(1), block.text);
         if (block.language == "text" && line_of(block.where) > line && line_of(block.where) < next)
           output = &block;
