@@ -1,5 +1,5 @@
-// The window as docs/gallery.md shows it. With the environment variable ASPIC_WINDOW_PICTURES the pictures go to that
-// directory; scripts/gallery.sh does so.
+// The window as docs/gallery.md shows it. With the environment variable ASPIC_WINDOW_PICTURES the pictures go
+// to that directory; scripts/gallery.sh does so.
 #include <fmt/format.h>
 
 #include <cmath>
