@@ -54,8 +54,24 @@ def python_pages() -> dict[str, str]:
     return pages | {"gym": gym}
 
 
+def share_comments(xml: Path) -> None:
+    """Gives the comment of `int a, b;  ///< …` to a, too: Doxygen has it for b alone."""
+    for file in xml.glob("*.xml"):
+        tree = ElementTree.parse(file)
+        for section in tree.iter("sectiondef"):
+            members = section.findall("memberdef")
+            for member, after in reversed(list(zip(members, members[1:]))):
+                lines = {place.attrib["line"] for row in (member, after) for place in row.findall("location")}
+                for kind in ("briefdescription", "detaileddescription"):
+                    for own, other in zip(member.findall(kind), after.findall(kind)):
+                        if len(lines) == 1 and not len(own):
+                            own.extend(list(other))
+        tree.write(file, encoding="utf-8", xml_declaration=True)
+
+
 def cpp_pages(headers: Path, xml: Path) -> dict[str, str]:
     """Texts by file name, one for each header: its declarations in their order, which Doxygen's XML tells."""
+    share_comments(xml)
     rows: dict[str, list[tuple[int, str]]] = {}
 
     def add(node: ElementTree.Element, directive: str) -> None:
