@@ -38,8 +38,9 @@ def directives(module: str, names: str) -> str:
     text = f".. currentmodule:: {module}\n"
     for name in names.split():
         if isinstance(getattr(sys.modules[module], name), type):
-            text += f"\n.. autoclass:: {name}\n   :members:\n   :show-inheritance:\n   :inherited-members: {BASES}\n"
+            text += f"\n.. autoclass:: {name}\n   :members:\n   :inherited-members: {BASES}\n"
             text += "   :undoc-members:\n" * (name == "ErrorCode")
+            text += "   :show-inheritance:\n" * name.endswith(("Error", "Warning"))
         else:
             text += f"\n.. autofunction:: {name}\n"
     return text

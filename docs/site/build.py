@@ -96,7 +96,7 @@ def write_documents() -> None:
         for name, link in re.findall(r"\[([^\]]+)\]\(([^)#]+\.md)\)", section):
             page = (ROOT / "docs" / link).resolve()
             pages.add(page)
-            entries.append(f"{name} <{page.relative_to(ROOT).with_suffix('')}>")
+            entries.append(f"{name[0].upper()}{name[1:]} <{page.relative_to(ROOT).with_suffix('')}>")
         navigation += toctree([":hidden:", *entries, *generated.get(title, [])], f":caption: {title}")
     copy_page(ROOT / "README.md", "index.md", navigation)
     for page in pages:

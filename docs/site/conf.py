@@ -29,3 +29,6 @@ html_copy_source = False
 html_show_sphinx = False
 copybutton_exclude = ".linenos, .gp, .go"
 copybutton_prompt_text = "$ "
+# scripts/docs.sh --external
+linkcheck_timeout = 15
+linkcheck_retries = 2
