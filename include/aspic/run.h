@@ -155,7 +155,7 @@ struct Diagnostic {
 /// cells and energy from nowhere. Calls may come from any thread, one at a time.
 class ASPIC_API RunWatch {
  public:
-  /// Needs model and settings no later. `starts`: the run starts in the model's initial state.
+  /// `starts`: the run starts in the model's initial state. look() takes a model that outlives the watch.
   RunWatch(const ModelSettings& of, const Model& model, bool starts = true, Precision = Precision::single);
   RunWatch(RunWatch&&) noexcept;
   RunWatch& operator=(RunWatch&&) noexcept;
@@ -163,8 +163,8 @@ class ASPIC_API RunWatch {
 
   void knows_what(const RunWatch& other);    ///< tells nothing that the other told
   std::vector<Diagnostic> at_start() const;  ///< of the state where the run starts
-  /// New ones. `driven`: pulls, pins or states that were set may have given it energy: not judged then.
-  std::vector<Diagnostic> look(const Model& model, const State& state, bool driven);
+  /// New ones. `inputs`: of all steps since the last look; `anew`: state or constants were set since then.
+  std::vector<Diagnostic> look(const Model& model, const State& state, const InputLog& inputs, bool anew);
   /// The first step after `step` to look at, ten a second; the largest number: none.
   std::uint64_t next_step(std::uint64_t step) const;
 

@@ -122,7 +122,7 @@ void Simulation::load(const State& state, const InputLog* log) {
     refuse_while_viewed();
     check(backend_.solver->load(state));
     step_ = state.step;
-    driven_ = true;
+    state_set_ = true;
     if (log != nullptr) log_ = *log;
     check(backend_.solver->set_inputs(log_.at(step_)));
   });
@@ -158,7 +158,7 @@ void Simulation::check_stopped(bool stopped) const {
 
 void Simulation::look_alone(std::uint64_t before) {
   if (step_ < watch_->next_step(before)) return;
-  keep(watch_->look(*model_, state_alone(), driven_ || !log_.empty()));
+  keep(watch_->look(*model_, state_alone(), log_, std::exchange(state_set_, false)));
 }
 
 void Simulation::keep(const std::vector<Diagnostic>& found) {
@@ -336,7 +336,6 @@ void Simulation::update(const std::vector<std::string>& overrides) {
     RunWatch watch(scene_.model, *model_, false);
     watch.knows_what(*watch_);
     watch_ = std::move(watch);
-    driven_ = true;
   });
 }
 
@@ -368,6 +367,7 @@ void Simulation::set_log(InputLog log) {
   alone([&] {
     check(backend_.solver->set_inputs(log.at(step_)));
     log_ = std::move(log);
+    state_set_ = true;  // by other inputs than these
   });
 }
 

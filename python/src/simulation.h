@@ -165,7 +165,7 @@ class Simulation {
   InputLog log_;
   std::uint64_t step_ = 0;
   std::optional<RunWatch> watch_;  // of model_
-  bool driven_ = false;            // states were set, or constants changed
+  bool state_set_ = false;         // since it last looked
   std::vector<Warning> warnings_;
   std::size_t told_ = 0;  // of these
   std::atomic<bool> stop_ = false;

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "analysis/stability.h"
-#include "playback/recorded_inputs.h"
 
 namespace aspic::app {
 namespace {
@@ -123,6 +122,8 @@ void RunControl::watch_run() {
   // While a change is on its way the scene is ahead of the model.
   if (scene_.pending() || simulation_.rebuild().changing() || simulation_.divergence()) return;
   const std::uint64_t number = simulation_.present().model_number(), step = simulation_.snapshot().step;
+  const std::uint64_t stretch = simulation_.playback().here().stretch;
+  const auto part = std::pair(simulation_.present().run_number(), stretch);
   if (!watch_ || watched_model_ != number) {
     const bool first = !watch_;
     RunWatch watch(scene_.scene().model, simulation_.model(), step == 0);
@@ -130,6 +131,7 @@ void RunControl::watch_run() {
     if (!first && step > 0) watch.knows_what(*watch_);
     watch_ = std::move(watch);
     watched_model_ = number;
+    watched_part_ = part;
     next_look_ = watch_->next_step(step);
     tell(watch_->at_start());
   }
@@ -137,10 +139,9 @@ void RunControl::watch_run() {
   const bool due = step >= next_look_;
   next_look_ = due ? after : std::min(next_look_, after);  // it may go back in time
   if (!due) return;
-  // Hands and changed constants give and take energy, too.
-  const auto inputs =
-      recorded_inputs(simulation_.playback().history(), simulation_.playback().history().end_moment());
-  tell(watch_->look(simulation_.model(), simulation_.snapshot(), !inputs || !inputs->empty()));
+  const bool anew = std::exchange(watched_part_, part) != part;
+  tell(watch_->look(simulation_.model(), simulation_.snapshot(),
+                    simulation_.playback().history().stretch(stretch).inputs, anew));
 }
 
 }  // namespace aspic::app

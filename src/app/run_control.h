@@ -49,6 +49,7 @@ class RunControl {
   std::optional<StabilityLimit> stable_;
   std::optional<RunWatch> watch_;  // of the model with that number
   std::uint64_t watched_model_ = 0, next_look_ = 0;
+  std::pair<std::uint64_t, std::uint64_t> watched_part_;  // the run's number and that of the stretch
 };
 
 }  // namespace aspic::app

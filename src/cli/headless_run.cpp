@@ -59,7 +59,7 @@ Status HeadlessRun::sample() {
 }
 
 void HeadlessRun::look(const State& state) {
-  warn(watch_->look(solver_.model(), state, !inputs_.empty()));
+  warn(watch_->look(solver_.model(), state, inputs_, false));
 }
 
 void HeadlessRun::warn(std::vector<Diagnostic> found) {

@@ -11,6 +11,7 @@
 #include "analysis/flat_cells.h"
 #include "aspic/analysis.h"
 #include "aspic/run.h"
+#include "run/energy_watch.h"
 #include "run/named_bodies.h"
 #include "run/start_diagnostics.h"
 
@@ -19,27 +20,6 @@ namespace {
 
 /// Of simulated time, between two looks [s].
 constexpr double interval = 0.1;
-/// Of what is in motion and in springs, what may come from nowhere before it is told: explicit Euler and
-/// points that are found deep at once gain some.
-constexpr double energy_share = 0.15;
-
-/// Whether all that acts on bodies is booked: neither actuators nor moving terrain do work, and nothing is
-/// eased apart.
-bool keeps_its_energy(const Model& model, bool eased) {
-  return bodies_touch(model) && !eased && model.actuation.actuators.empty() &&
-         std::ranges::none_of(model.terrain, [](const Terrain& t) { return t.motion.has_value(); });
-}
-
-/// What balls have that were launched in these steps, where they were [J].
-double launched(const Model& model, std::uint64_t after, std::uint64_t until) {
-  double sum = 0.0;
-  for (const Ball& ball : model.balls)
-    if (ball.launched(until) && !ball.launched(after))
-      sum += 0.5 * ball.mass * dot(ball.initial_velocity, ball.initial_velocity) +
-             0.5 * ball.inertia() * dot(ball.initial_angular_velocity, ball.initial_angular_velocity) -
-             ball.mass * dot(model.simulation.gravity, ball.initial_position);
-  return sum;
-}
 
 }  // namespace
 
@@ -54,13 +34,8 @@ struct RunWatch::Parts {
   std::optional<DeepPoints> deep;      // made with the first look, since they take much of the memory of
   std::optional<FlatCellSearch> flat;  // a run, and scene check makes none
   double timestep;
-  bool watched;  // there is something to look for
-  bool energetic;
-  struct Energy {
-    std::uint64_t step;
-    double total;  // [J]
-  };
-  std::optional<Energy> first;
+  bool watched;                       // there is something to look for
+  std::optional<EnergyWatch> energy;  // of the first look's model
   std::set<std::pair<std::uint32_t, std::uint32_t>> told_pairs;
   std::set<std::uint32_t> told_flat;
   bool told_energy = false;
@@ -75,7 +50,7 @@ struct RunWatch::Parts {
   Diagnostic overlap() const;
   void look_for_deep(const State& state, std::vector<Diagnostic>& found);
   void look_for_flat(const State& state, std::vector<Diagnostic>& found);
-  void look_for_energy(const Model& model, const State& state, std::vector<Diagnostic>& found);
+  void look_for_energy(const State& state, const InputLog& inputs, std::vector<Diagnostic>& found);
 };
 
 RunWatch::RunWatch(const ModelSettings& settings, const Model& model, bool starts, Precision precision)
@@ -87,14 +62,12 @@ RunWatch::RunWatch(const ModelSettings& settings, const Model& model, bool start
           {},
           model.simulation.timestep,
           !model.bodies.empty(),
-          false,
           {},
           {},
           {}}) {
   // What is deep from the start is named there.
   for (const BodyOverlap& each : parts_->at_start)
     if (each.locked()) parts_->told_pairs.emplace(each.a, each.b);
-  parts_->energetic = keeps_its_energy(model, !parts_->at_start.empty());
   parts_->starts = starts;
 }
 
@@ -167,39 +140,41 @@ void RunWatch::Parts::look_for_flat(const State& state, std::vector<Diagnostic>&
                    "Springs may hold them so for ever; slower impacts or stiffer springs keep the shape"});
 }
 
-void RunWatch::Parts::look_for_energy(const Model& model, const State& state,
+void RunWatch::Parts::look_for_energy(const State& state, const InputLog& inputs,
                                       std::vector<Diagnostic>& found) {
-  if (!first || state.step < first->step) {
-    first = Energy{state.step, measure(model, state).total()};
-    return;
-  }
-  const double before = first->total + launched(model, first->step, state.step);
-  // Energy that is only in springs shows as soon as it moves something.
-  if (!(measure_motion(model, state).total() > before)) return;
-  const Measures now = measure(model, state);
-  const double rise = now.total() - before;
-  if (!(rise > energy_share * (now.kinetic + now.elastic))) return;
+  const auto rise = energy->look(state, inputs);
+  if (!rise) return;
   told_energy = true;
-  found.push_back(
-      {"energy", "",
-       fmt::format(
-           "the total energy is {:.3g} J {}, {:.3g} J more than at the start, and nothing did that work",
-           now.total(), when(state), rise),
-       "Bodies met too fast or the time step is too large: see what aspic scene check says"});
+  const std::string before =
+      rise->driven ? fmt::format(
+                         "above that of step {} plus the most that actuators, pulls and moving terrain "
+                         "can have added since",
+                         rise->since)
+                   : fmt::format("more than at {}, and nothing did that work",
+                                 rise->since > 0 ? fmt::format("step {}", rise->since) : "the start");
+  found.push_back({"energy", "",
+                   fmt::format("the total energy is {:.3g} J {}, {:.3g} J {}", rise->total, when(state),
+                               rise->excess, before),
+                   "Bodies met too fast or the time step is too large: see what aspic scene check says"});
 }
 
-std::vector<Diagnostic> RunWatch::look(const Model& model, const State& state, bool driven) {
+std::vector<Diagnostic> RunWatch::look(const Model& model, const State& state, const InputLog& inputs,
+                                       bool anew) {
   std::vector<Diagnostic> found;
   if (!parts_->deep) {
     parts_->deep.emplace(model);
     parts_->flat.emplace(model);
-    if (parts_->starts && parts_->energetic)
-      parts_->first = {0, measure(model, initial_state(model, Precision::double_)).total()};
+    // Bodies that are eased apart gain energy.
+    if (parts_->at_start.empty()) parts_->energy.emplace(model, interval);
+    if (parts_->energy && parts_->starts)
+      parts_->energy->begin(initial_state(model, Precision::double_), inputs);
   }
   parts_->look_for_deep(state, found);
   parts_->look_for_flat(state, found);
-  parts_->energetic = parts_->energetic && !driven;
-  if (parts_->energetic && !parts_->told_energy) parts_->look_for_energy(model, state, found);
+  if (parts_->energy && anew)
+    parts_->energy->begin(state, inputs);
+  else if (parts_->energy && !parts_->told_energy)
+    parts_->look_for_energy(state, inputs, found);
   for (Diagnostic& each : found) each.step = state.step;
   return found;
 }
