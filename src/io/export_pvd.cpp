@@ -24,10 +24,8 @@ constexpr double between_collections = 1.0;
 std::string escaped(const std::string& text) {
   std::string xml;
   for (const char c : text) {
-    if (c == '&' || c == '<' || c == '>' || c == '"' || static_cast<unsigned char>(c) < 0x20)
-      xml += fmt::format("&#{};", static_cast<int>(c));
-    else
-      xml += c;
+    const bool special = c == '&' || c == '<' || c == '>' || c == '"' || static_cast<unsigned char>(c) < 0x20;
+    xml += special ? fmt::format("&#{};", static_cast<int>(c)) : std::string(1, c);
   }
   return xml;
 }
@@ -69,7 +67,12 @@ class PvdSeries final : public MotionSink {
     if (written_ && seconds_since(*written_) < between_collections) return {};
     return write_collection();
   }
-  Status complete(const Sample&) override { return write_collection(); }
+  Status complete(const Sample& last) override {
+    std::string json(last.warnings);  // in a comment, which has no two hyphens in a row
+    for (std::size_t at = 0; (at = json.find("--", at)) != json.npos;) json.replace(at, 2, "-\\u002d");
+    if (!json.empty()) entries_ += "<!-- warnings: " + json + " -->\n";
+    return write_collection();
+  }
 
   Status write_collection() {
     // What is there since the first time is our own.
@@ -81,8 +84,7 @@ class PvdSeries final : public MotionSink {
     ASPIC_CHECK(file.write(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
         "<Collection>\n"));
-    ASPIC_CHECK(file.write(entries_));
-    ASPIC_CHECK(file.write("</Collection>\n</VTKFile>\n"));
+    ASPIC_CHECK(file.write(entries_ + "</Collection>\n</VTKFile>\n"));
     ASPIC_CHECK(file.commit());
     written_ = Clock::now();
     return {};

@@ -99,6 +99,15 @@ TEST_F(Exports, ACollectionNamesEverySampleAndItsTime) {
   EXPECT_EQ(dir_.entries(), 6u);
 }
 
+TEST_F(Exports, CollectionHoldsWarningsAsComment) {
+  const auto sink = open("run.pvd", 10);
+  take(*sink, 0);
+  ASSERT_TRUE(
+      sink->finish({.model = model_, .state = at(10), .warnings = R"([{"text":"a -- b ---"}])"}).ok());
+  EXPECT_THAT(dir_.read("run.pvd"),
+              HasSubstr("<!-- warnings: [{\"text\":\"a -\\u002d b -\\u002d-\"}] -->\n</Collection>\n"));
+}
+
 TEST_F(Exports, ACollectionCanBeReadWhileTheRunGoesOn) {
   {
     const auto sink = open("run.pvd", 10);
