@@ -41,13 +41,14 @@ Status Engines::set_constants(SharedModel model) {
   ASPIC_CHECK(leader_.solver->set_constants(model));
   if (shadowed()) ASPIC_CHECK(shadow_.solver->set_constants(model));
   model_ = std::move(model);
+  meter_ = std::make_unique<Meter>(*model_);
   return {};
 }
 
 EnergySample Engines::measured(const State& state) const {
   const Inputs& inputs = leader_.solver->inputs();
   EnergySample sample = {static_cast<double>(state.step) * model_->simulation.timestep,
-                         measure(*model_, state, inputs), state.step};
+                         meter_->measure(state, inputs), state.step};
   sample.actuators.add(*model_, state, inputs);
   return sample;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/analysis.h"
 #include "aspic/inputs.h"
 #include "aspic/solver.h"
 #include "aspic/state.h"
@@ -47,7 +48,10 @@ class Engines {
  public:
   Engines() = default;
   Engines(SharedModel model, Backend leader, Backend shadow)
-      : model_(std::move(model)), leader_(std::move(leader)), shadow_(std::move(shadow)) {}
+      : model_(std::move(model)),
+        meter_(std::make_unique<Meter>(*model_)),
+        leader_(std::move(leader)),
+        shadow_(std::move(shadow)) {}
 
   /// In what these engines are not like those they replace, in a sentence; nothing: in nothing.
   std::optional<Error> departure;
@@ -78,7 +82,7 @@ class Engines {
     shadow_ = std::move(engine);
   }
   void swap() { std::swap(leader_, shadow_); }
-  /// The energies of a state of the model.
+  /// The energies of a state of the model; one call at a time.
   EnergySample measured(const State& state) const;
   Status load(const State& state);
   Status set_inputs(const Inputs& inputs);
@@ -94,6 +98,7 @@ class Engines {
 
  private:
   SharedModel model_;
+  std::unique_ptr<Meter> meter_;  // of the model
   Backend leader_, shadow_;
 };
 
