@@ -122,8 +122,7 @@ void RunControl::watch_run() {
   // While a change is on its way the scene is ahead of the model.
   if (scene_.pending() || simulation_.rebuild().changing() || simulation_.divergence()) return;
   const std::uint64_t number = simulation_.present().model_number(), step = simulation_.snapshot().step;
-  const std::uint64_t stretch = simulation_.playback().here().stretch;
-  const auto part = std::pair(simulation_.present().run_number(), stretch);
+  const auto part = std::pair(simulation_.present().run_number(), simulation_.playback().here().stretch);
   if (!watch_ || watched_model_ != number) {
     const bool first = !watch_;
     RunWatch watch(scene_.scene().model, simulation_.model(), step == 0);
@@ -141,7 +140,7 @@ void RunControl::watch_run() {
   if (!due) return;
   const bool anew = std::exchange(watched_part_, part) != part;
   tell(watch_->look(simulation_.model(), simulation_.snapshot(),
-                    simulation_.playback().history().stretch(stretch).inputs, anew));
+                    simulation_.playback().history().stretch(part.second).inputs, anew));
 }
 
 }  // namespace aspic::app

@@ -16,8 +16,6 @@
 namespace aspic {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// A collection of many files is long to write: between two there is this time [s].
 constexpr double between_collections = 1.0;
 
@@ -86,7 +84,7 @@ class PvdSeries final : public MotionSink {
         "<Collection>\n"));
     ASPIC_CHECK(file.write(entries_ + "</Collection>\n</VTKFile>\n"));
     ASPIC_CHECK(file.commit());
-    written_ = Clock::now();
+    written_ = std::chrono::steady_clock::now();
     return {};
   }
 
@@ -94,7 +92,7 @@ class PvdSeries final : public MotionSink {
   Overwrite overwrite_;
   std::optional<AtomicFile> file_;
   std::string entries_;
-  std::optional<Clock::time_point> written_;
+  std::optional<std::chrono::steady_clock::time_point> written_;
 };
 
 }  // namespace

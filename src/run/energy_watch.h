@@ -1,16 +1,16 @@
 #pragma once
-// Whether a run has more energy than it had and than inputs, actuators and moving terrain can have added.
+// The energy of a run, against what it had and the most that inputs, actuators and moving terrain can add.
 //
-// E is the energy in motion and in springs, those of pulls included. Three things bound the work W between
-// two looks:
-// - Actuators that change rest lengths by Δr raise √E by √(½ Σ k·Δr²) at most, since √(½ Σ k·s²) is a norm of
-//   the stretches s. A pull whose anchor moves by Δa raises it by √(½k)·|Δa|. Dampers do not see either.
-// - Terrain that moves by Δo shifts the ends of the springs that it touches, which raises √E by √(½ Σ
-// k)·|Δo|.
-//   It also does |g|·m·|Δo| on the weight of what it touches, ¼c·|Δo|²/h on each damper in a step, and
-//   with its own velocity V it raises √E by √(½ Σ m)·(|V| at both ends and all |ΔV| between).
-// - Gravity raises √E by |g|·√(½M)·t = G. It does so with potential energy and adds nothing to W.
-// A sum S of the raises gives W = (√E + G + S)² − (√E + G)².
+// E is the energy in motion and in springs, pulls included. Between two looks √E rises by at most
+//   √(½ Σ k·Δr²)                     for rest lengths that change by Δr, since √(½ Σ k·s²) is a norm of s;
+//   √(½k)·|Δa|                       for the anchor of a pull that moves by Δa;
+//   √(½ Σ k)·|Δo|                    for terrain that moves by Δo and the springs of what it can touch;
+//   √(½ Σ m)·(|V₀| + Σ|ΔV| + |V₁|)   for the velocities V of terrain and the masses of what it can touch.
+// S is their sum. The terrain also does F = Σ m·|g|·|Δo| on weights and ¼ Σ c·|Δo|²/h on dampers, which see
+// neither rest lengths nor anchors. Gravity raises √E by G = |g|·t·√(½M) from potential energy. So the total
+// energy rises by at most
+//   F + (R + S)² − R²,   R = √(E + F) + G.
+// What terrain can touch is what it can at either look; both are added.
 #include <cstdint>
 #include <optional>
 #include <vector>
