@@ -59,6 +59,19 @@ def test_what_does_not_hold_is_said_before_the_first_step_and_when_it_comes_abou
         sim.run(0.3)
 
 
+def test_energy_is_judged_by_what_inputs_can_add() -> None:
+    sim = aspic.Simulation("worm", "cpu")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sim.run(0.25)
+        sim.velocities = sim.velocities + np.array([0.0, 30.0, 0.0])
+        sim.run(0.25)
+    with pytest.warns(aspic.RunWarning, match="may not be stable"):
+        sim = aspic.Simulation(aspic.load("worm", {"simulation.timestep": 0.005}), "cpu")
+    with pytest.warns(aspic.RunWarning, match="J above that of step 0 plus the most that actuators"):
+        sim.run(0.1)
+
+
 def test_momentum_and_heights_look_for_no_contacts(monkeypatch: pytest.MonkeyPatch) -> None:
     sim = aspic.Simulation("cubes-stack", "cpu")
     full, motion = sim.measures, sim._motion

@@ -164,9 +164,10 @@ std::vector<Diagnostic> RunWatch::look(const Model& model, const State& state, c
   if (!parts_->deep) {
     parts_->deep.emplace(model);
     parts_->flat.emplace(model);
-    // Bodies that are eased apart gain energy.
+    // Bodies that are eased apart gain energy, those within terrain in the first step.
     if (parts_->at_start.empty()) parts_->energy.emplace(model, interval);
-    if (parts_->energy && parts_->starts)
+    if (parts_->energy && parts_->starts &&
+        std::ranges::find(parts_->start, "within-terrain", &Diagnostic::id) == parts_->start.end())
       parts_->energy->begin(initial_state(model, Precision::double_), inputs);
   }
   parts_->look_for_deep(state, found);

@@ -528,6 +528,19 @@ TEST_F(Panels, BodiesThatOverlapAreNamed) {
   EXPECT_TRUE(!app().messages.notice() || app().messages.notice()->text.find("overlap") == std::string::npos);
 }
 
+TEST_F(Panels, LoadedStatesStartAnewWithTheirEnergy) {
+  open("worm", {}, "reference");
+  simulation().set_running(true);
+  frames_to_step(120);
+  ASSERT_TRUE(simulation().settle().ok());
+  State state = simulation().snapshot();
+  for (Vec3& v : state.velocity) v.y += 30.0;
+  ASSERT_TRUE(simulation().rebuild().start_from(state, {}).ok());
+  simulation().set_running(true);
+  frames_to_step(state.step + 120);
+  EXPECT_TRUE(!app().messages.notice() || app().messages.notice()->text.find("energy") == std::string::npos);
+}
+
 TEST_F(Panels, ASecondBodyInABowlStandsAboveTheFirst) {
   open("cube-bowl", {"cube[0].particles-per-edge=3", "cube[0].edge-length=2", "cube[0].position=[6,7.5,1]"},
        "reference", only("Bodies"));

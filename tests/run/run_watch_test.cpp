@@ -255,6 +255,7 @@ ModelSettings shaken_cube() {
 TEST(RunWatch, KeepsQuietAboutWorkThatInputsDo) {
   EXPECT_THAT(energy_words(swelling_cube(), busy_hand(), 1.0), IsEmpty());
   EXPECT_THAT(energy_words(shaken_cube(), {}, 1.0), IsEmpty());
+  EXPECT_THAT(energy_words(test::cube_on_plane(4, -20.0), {}, 1.0), IsEmpty()) << "told at the start";
   ModelSettings still = swelling_cube();
   still.actuators.clear();
   const InputLog all = busy_hand();
