@@ -48,8 +48,8 @@ SCENE = """# {name}
 Open this run alone: {links}.
 {note}
 ```sh
-aspic view {name}                      # in a window
-aspic run {name} --video {name}.mp4    # as a film
+aspic view {name}
+aspic run {name} --video {name}.mp4
 ```
 
 ## The scene file
@@ -71,9 +71,10 @@ def toctree(entries: Iterable[str], option: str) -> str:
     return "\n".join(["", "```{toctree}", option, *entries, "```", ""])
 
 
-def copy_page(page: Path, place: str, more: str = "") -> None:
-    """Copies a page and the files of the repository that it links to; links to directories become text."""
-    text = page.read_text()
+def copy_page(page: Path, place: str, lead: str = "", more: str = "") -> None:
+    """Copies a page and the files of the repository that it links to. Links to directories become text; those that are
+    named by a page's file get its title."""
+    text = re.sub(r"\[[a-z/-]+\.md\]\(", "[](", page.read_text().replace("\n## ", f"\n{lead}## ", 1))
     for link in set(re.findall(r"\]\(([^)#\s]+)", text)):
         target = (page.parent / link).resolve()
         if target in (ROOT / "README.md", ROOT / "docs/README.md"):
@@ -98,7 +99,8 @@ def write_documents() -> None:
             pages.add(page)
             entries.append(f"{name[0].upper()}{name[1:]} <{page.relative_to(ROOT).with_suffix('')}>")
         navigation += toctree([":hidden:", *entries, *generated.get(title, [])], f":caption: {title}")
-    copy_page(ROOT / "README.md", "index.md", navigation)
+    lead = "[Every built-in scene in your browser](scenes/index.md)\n\n"
+    copy_page(ROOT / "README.md", "index.md", lead, navigation)
     for page in pages:
         copy_page(page, str(page.relative_to(ROOT)))
 

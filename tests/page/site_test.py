@@ -36,7 +36,8 @@ with tempfile.TemporaryDirectory() as folder:
     expect("scenes/goal-net.html", 'src="../live/goal-net.html"' if live else "scripts/wasm.sh", "[simulation]")
 
     index = json.loads(re.fullmatch(r"Search.setIndex\((.*)\)", Path(site, "searchindex.js").read_text(), re.S)[1])
-    for part, name in (("aspic", "Simulation"), ("aspic.Simulation", "step"), ("aspic.gym", "Walk")):
+    symbols = (("aspic", "Simulation"), ("aspic.Simulation", "step"), ("aspic.gym", "Walk"), ("", "aspic::Batch::run"))
+    for part, name in symbols:
         if name not in {row[-1] for row in index["objects"].get(part, [])}:
             faults.append(f"the search index lacks the object {part}.{name}")
     for term, page in (("denorm", "docs/determinism"), ("coulomb", "docs/physics")):
