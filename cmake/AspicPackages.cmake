@@ -1,5 +1,5 @@
 # Debian packages by CPack: what scripts/package.sh makes with the preset package. The components of an installation are
-#   programs  aspic            both programs, manual pages, completion, desktop entry, icon, documents
+#   programs  aspic            all programs, manual pages, completion, desktop entry, icon, documents
 #   runtime   libaspic0.3      the shared library, named by its soname
 #   library   libaspic-dev     headers, static library, CMake package, pkg-config file
 #   python    python3-aspic    the module for the distribution's own Python

@@ -95,6 +95,7 @@ function(aspic_library name)
   target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS})
   aspic_hidden(${name})
   aspic_precompiled(${name} aspic_room_headers)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 32)  # a module is one unit: its headers are read once
   set_property(GLOBAL APPEND PROPERTY ASPIC_ROOMS ${name})
 endfunction()
 
@@ -144,19 +145,25 @@ function(aspic_program_part name)
   aspic_precompiled(${name} aspic_room_headers)
 endfunction()
 
-# aspic_runs(TARGET program …): tests that run other programs, which are built with them. ASPIC_OBJECTS_ONLY leaves them out, since
+# aspic_runs(TARGET program …): tests that run other programs, which are built with them; aspic with aspic-studies. ASPIC_OBJECTS_ONLY leaves them out, since
 # compiling one file of the target would wait for them.
 function(aspic_runs target)
   if(NOT ASPIC_OBJECTS_ONLY)
     add_dependencies(${target} ${ARGN})
+    if("aspic" IN_LIST ARGN)
+      add_dependencies(${target} aspic-studies)
+    endif()
   endif()
 endfunction()
 
-# aspic_computes(NAME [LEVEL]): a target that computes at length, optimised as far as the compiler can or in a Release build to this level,
+# aspic_computes(NAME [LEVEL]): a module that computes at length, optimised as far as the compiler can or in a Release build to this level,
 # without checks inside its loops.
 # Below -O2 clang inlines nothing of Eigen and Highway: minutes become hours under the sanitizers.
 function(aspic_computes name)
-  set_target_properties(${name} PROPERTIES ASPIC_COMPUTES ON DISABLE_PRECOMPILE_HEADERS ON)
+  set_target_properties(${name} PROPERTIES ASPIC_COMPUTES ON)
+  if(ASPIC_PRECOMPILE AND NOT name STREQUAL "aspic_compute_headers")
+    set_target_properties(${name} PROPERTIES PRECOMPILE_HEADERS_REUSE_FROM aspic_compute_headers)
+  endif()
   if(ASPIC_LEVELS AND ARGN)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:${ARGN}>)
   endif()

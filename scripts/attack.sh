@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 aspic_install all
-aspic_build ON aspic aspic_fault_shim
+aspic_build ON programs aspic_fault_shim
 thorough=() suites=()
 for word in "$@"; do
   case $word in

@@ -4,7 +4,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 aspic_install all
-aspic_build ON aspic app_window_tests
+aspic_build ON programs app_window_tests
 
 images=$aspic_root/docs/images
 mkdir -p "$images"
@@ -92,7 +92,7 @@ echo "docs/images/report.jpg" >&2
 "$aspic_build_dir/aspic" run cube-plane --beside integrator=implicit-euler --beside k=8000 --page "$work/page-beside.html" >&2
 /usr/bin/python3 tests/page/shoot.py "$work/page.html" 1.36 "$work/page.png" "$work/page-beside.html" 1.5 "$work/page-beside.png"
 "$aspic_root/scripts/wasm.sh"
-aspic_build ON aspic
+aspic_build ON programs
 "$aspic_build_dir/aspic" run cube-plane --view colour=strain --page-live "$work/page-live.html" >&2
 /usr/bin/python3 tests/page/shoot.py "$work/page-live.html" 1.36 "$work/page-live.png"
 for picture in page page-beside page-live; do

@@ -9,7 +9,7 @@ most_mebibytes=120
 
 aspic_install run
 aspic_install_packages libgtest-dev libgmock-dev
-aspic_build ON aspic aspic_peers gl_tests
+aspic_build ON aspic aspic-studies aspic_peers gl_tests
 rm -rf "$kit"
 tree=$kit/tree  # what the tests read lies where it is in the checkout
 mkdir -p "$kit/lib/cxx" "$kit/lib/loader" "$tree/build/release" "$tree/bench/results/h200" "$tree/tests/data" "$tree/tests/gpu"
@@ -21,7 +21,7 @@ cp "$aspic_root/tests/data/hashes.json" "$tree/tests/data"
 cp "$aspic_root/bench/results/h200/hashes.csv" "$tree/bench/results/h200"
 cp "$aspic_build_dir/gl_tests.txt" "$tree"
 echo "$aspic_root" >"$tree/root.txt"
-{ cut -d ' ' -f 1 "$tree/gl_tests.txt"; echo aspic; echo aspic-peers; } | while read -r program; do
+{ cut -d ' ' -f 1 "$tree/gl_tests.txt"; printf '%s\n' aspic aspic-studies aspic-peers; } | while read -r program; do
   mkdir -p "$(dirname "$tree/build/release/$program")"
   strip -o "$tree/build/release/$program" "$aspic_build_dir/$program"
 done

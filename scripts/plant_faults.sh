@@ -53,7 +53,7 @@ make_target() {
 # failing_rows LIST: runs the rows of a comma-separated list; the failed ones on stdout, one a line.
 failing_rows() {
   local words=() names name status=0
-  make_target aspic || return 2
+  make_target aspic aspic-studies || return 2
   IFS=, read -ra names <<<"$1"
   for name in "${names[@]}"; do words+=(--only "$name"); done
   "$build/aspic" verify "${words[@]}" >"$work/table" 2>"$work/messages" || status=$?

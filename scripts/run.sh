@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Release and runs aspic with the arguments given here. Without arguments: the window,
-# where there is a display and it could be built, else cube-plane simulated and filmed headless into out/. The window is built
-# where it can be opened, or with the argument view.
+# where there is a display and it could be built, else cube-plane simulated and filmed headless into out/. Builds all programs where the
+# window can be opened and for commands that aspic itself lacks.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 caller=$PWD
 aspic_install run
 target=aspic
-if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || [ "${1:-}" = view ]; then target=programs; fi
+case ${DISPLAY:-}${WAYLAND_DISPLAY:-}:${1:-} in
+  ?*:* | :view | :bench | :report | :sweep | :verify) target=programs ;;
+esac
 aspic_build OFF "$target"
 aspic=$aspic_build_dir/aspic
 cd "$caller"

@@ -1,30 +1,27 @@
-// aspic: parses the command line and runs the command; errors go to stderr, their codes are the exit codes.
+// aspic: the commands that simulate and film; aspic-studies has the others.
 #include <string_view>
-#include <variant>
+#include <type_traits>
 
-#include "cli/commands.h"
-#include "io/console.h"
-#include "io/program.h"
+#include "cli/program_main.h"
 
 namespace {
 
-aspic::Status run(int argc, const char* const* argv) {
-  ASPIC_TRY(const auto command, aspic::parse_arguments(argc, argv));
-  return std::visit([](const auto& options) { return aspic::cli::execute(options); }, command);
-}
+template <class Options>
+constexpr bool is_study =
+    std::is_same_v<Options, aspic::BenchOptions> || std::is_same_v<Options, aspic::ReportOptions> ||
+    std::is_same_v<Options, aspic::SweepOptions> || std::is_same_v<Options, aspic::VerifyOptions>;
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return aspic::run_program([&] {
-    if (argc > 1 && std::string_view(argv[1]) == "--complete") {
-      aspic::cli::complete({argv + 2, argv + argc});
-      return 0;
+  const auto execute = [&]<class Options>(const Options& options) {
+    if constexpr (is_study<Options>) {
+      return aspic::cli::execute_study({argv + 1, argv + argc});
+    } else {
+      return aspic::cli::execute(options);
     }
-    const aspic::Status done = run(argc, argv);
-    if (done) return 0;
-    if (done.error().code != aspic::closed_pipe)
-      aspic::print_message(worded(done.error(), aspic::FrontEnd::command_line));
-    return static_cast<int>(done.error().code);
-  });
+  };
+  if (argc > 1 && std::string_view(argv[1]) == "--complete")
+    return aspic::cli::execute_study({argv + 1, argv + argc}) ? 0 : 1;
+  return aspic::cli::command_main(argc, argv, execute);
 }

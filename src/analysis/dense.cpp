@@ -1,7 +1,6 @@
 #include "analysis/dense.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 namespace aspic {
 
@@ -9,10 +8,6 @@ std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& a) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, false);
   const auto& values = solver.eigenvalues();
   return {values.data(), values.data() + values.size()};
-}
-
-Eigen::VectorXd solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
-  return a.partialPivLu().solve(b);
 }
 
 }  // namespace aspic

@@ -21,6 +21,8 @@ Status execute_comparison(const RunOptions& options);
 
 /// Becomes the window program, aspic-view, installed next to this one. Error (no_device): it is not there.
 Status execute(const ViewOptions& options);
+/// Becomes aspic-studies, installed next to this one, with these arguments. Error (io): it is not there.
+Status execute_study(const std::vector<std::string>& arguments);
 
 /// Steps two backends side by side. Error (check_failed): they differ by more than the tolerance.
 Status execute(const CompareOptions& options);

@@ -14,7 +14,7 @@
 #include "model/inputs.h"
 #include "model/reading.h"
 #include "page/page_writer.h"
-#include "playback/common_clock.h"
+#include "run/common_clock.h"
 #include "run/comparison.h"
 #include "run/comparison_recorder.h"
 #include "run/recorder.h"

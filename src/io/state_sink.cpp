@@ -128,7 +128,7 @@ constexpr std::string_view state_every =
 constexpr std::string_view export_summary = "write the motion";
 constexpr std::string_view export_every = "steps between samples of the export; default: about 0.02 s";
 
-constexpr StateFormat table[] = {
+constexpr StateFormat formats[] = {
     {"state", ".csv", "CSV", state_summary, state_every, 0, false, false, StateFiles::open<write_csv>},
     {"state", ".vtp", "VTK PolyData", state_summary, state_every, 0, false, false,
      StateFiles::open<write_vtp>},
@@ -159,12 +159,12 @@ Status write_checkpoint(const std::string& path, const std::string& scene_toml, 
 }
 
 std::span<const StateFormat> state_formats() {
-  return table;
+  return formats;
 }
 
 std::vector<std::string_view> state_options() {
   std::vector<std::string_view> options;
-  for (const StateFormat& format : table)
+  for (const StateFormat& format : formats)
     if (options.empty() || options.back() != format.option) options.push_back(format.option);
   return options;
 }
@@ -172,7 +172,7 @@ std::vector<std::string_view> state_options() {
 std::string state_help(std::string_view option) {
   std::string_view summary;
   std::vector<std::string> kinds;
-  for (const StateFormat& format : table) {
+  for (const StateFormat& format : formats) {
     if (format.option != option) continue;
     if (summary.empty()) summary = format.summary;
     kinds.push_back(fmt::format("{} ({})", format.label, format.ending));
@@ -187,7 +187,7 @@ Status check_state_name(std::string_view option, const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending.empty() || is_device_or_pipe(path)) return {};
   std::vector<std::string_view> endings;
-  for (const StateFormat& format : table) {
+  for (const StateFormat& format : formats) {
     if (format.option != option) continue;
     if (format.ending == ending) return {};
     endings.push_back(format.ending);
@@ -199,7 +199,7 @@ Status check_state_name(std::string_view option, const std::string& path) {
 const StateFormat& state_format_of(std::string_view option, std::string_view path) {
   const StateFormat* chosen = nullptr;
   const std::string ending = ending_of(std::string(path));
-  for (const StateFormat& format : table) {
+  for (const StateFormat& format : formats) {
     if (format.option != option) continue;
     if (!chosen || format.ending == ending) chosen = &format;
   }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "model/steps.h"
-#include "playback/common_clock.h"
+#include "run/common_clock.h"
 #include "playback/effect.h"
 
 namespace aspic {

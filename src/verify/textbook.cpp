@@ -1,8 +1,8 @@
 #include "verify/textbook.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
-#include "analysis/dense.h"
 #include "model/springs.h"
 
 namespace aspic::verify {
@@ -131,7 +131,7 @@ Eigen::VectorXd dense_backward_euler(const Model& model, const State& start) {
       J.block<3, 3>(at(spring.a), at(spring.b)) -= block;
       J.block<3, 3>(at(spring.b), at(spring.a)) -= block;
     }
-    const Eigen::VectorXd change = solve(J, F);
+    const Eigen::VectorXd change = J.partialPivLu().solve(F);
     double share = 1.0;
     Eigen::VectorXd next = v - change, F_next = defect(next);
     while (F_next.norm() > F.norm() && share > 1e-6) {

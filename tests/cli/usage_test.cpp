@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <ostream>
@@ -34,6 +35,22 @@ TEST(Usage, VersionAndHelpAreData) {
   }
   EXPECT_THAT(aspic({"run", "--help"}).out, HasSubstr("--checkpoint"));
   EXPECT_THAT(aspic({"scene", "--help"}).out, HasSubstr("check"));
+}
+
+TEST(Usage, NamesTheMissingProgramOfACommand) {
+  const test::TemporaryDirectory dir;
+  test::ProcessOptions alone;
+  alone.program = dir.file("aspic");
+  std::filesystem::copy_file(ASPIC_PROGRAM, alone.program);
+  for (const Words& words : {Words{"verify", "--list"},
+                             {"bench"},
+                             {"report", "cube-plane", "--out", "r"},
+                             {"sweep", "cube-plane", "--vary", "k=1,2", "--out", "s.csv"}}) {
+    const auto missing = aspic(words, alone);
+    EXPECT_EQ(missing.exit_code, 6) << words.front();
+    EXPECT_THAT(missing.err, HasSubstr(dir.file("aspic-studies") + " cannot be started"));
+  }
+  EXPECT_EQ(aspic({"scene", "list"}, alone).exit_code, 0);
 }
 
 TEST(Usage, HelpNamesTheCompleteCommand) {

@@ -1,4 +1,4 @@
-#include "playback/common_clock.h"
+#include "run/common_clock.h"
 
 #include <gtest/gtest.h>
 
