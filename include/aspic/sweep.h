@@ -84,4 +84,48 @@ class ASPIC_API RunFigures {
   std::unique_ptr<Parts> parts_;
 };
 
+/// How a run ended.
+enum class RunOutcome {
+  ok,        ///< it reached its end
+  diverged,  ///< figures are those of the last good step
+  rejected,  ///< by scene or backend, before its first step
+  failed     ///< device, memory or process; it may succeed another time
+};
+/// "ok", "diverged", "rejected" or "failed".
+ASPIC_API std::string_view name_of(RunOutcome outcome);
+
+/// The result of a run.
+struct RunRow {
+  RunOutcome outcome = RunOutcome::ok;  ///< how it ended
+  std::string reason;                   ///< one line; empty: ok
+  std::uint64_t steps = 0;              ///< the last good one
+  std::vector<RunFigure> figures;       ///< in the order of columns; empty: it never began
+  std::string hash;                     ///< of the last good state
+  std::string solver;                   ///< Backend::variant(); empty: it never began
+  double seconds = 0.0;                 ///< that its steps took
+};
+
+/// The file of a run: JSON, with a line end (docs/sweeps.md). `scene`: scene_key() of what the run differs
+/// from.
+ASPIC_API std::string run_file(const SweepRun& run, const RunRow& row, const std::string& scene);
+
+/// Finished runs, a file each. Several threads, processes and machines may use one folder at once.
+class ASPIC_API RunFolder {
+ public:
+  /// Makes nothing.
+  explicit RunFolder(std::string path) : path_(std::move(path)) {}
+
+  /// Makes the folder, with the scene that its runs differ from. Error (io).
+  Status make(const Scene& scene) const;
+  /// The file of a run; nothing where it is missing, damaged or no regular file.
+  std::optional<std::string> read(const std::string& key) const;
+  /// Keeps a file KEY.ENDING of a run; one that is there is replaced. Error (io).
+  Status write(const std::string& key, std::string_view ending, std::string_view content) const;
+  /// The path of KEY.ENDING.
+  std::string file(const std::string& key, std::string_view ending) const;
+
+ private:
+  std::string path_;
+};
+
 }  // namespace aspic

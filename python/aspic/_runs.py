@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import functools
+import json
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 from . import _aspic
 from ._batch import Batch, Instance
@@ -46,18 +47,8 @@ class Study(NamedTuple):
     version: str
 
 
-class Order(NamedTuple):
-    """A run that is to be made."""
-
-    key: str
-    scene: _aspic.Scene | None
-    """None: it was rejected."""
-    backend: str
-    doubles: bool
-    steps: int
-    particles: int
-    values: dict[str, Any]
-    error: tuple[int, str] | None
+Order = _aspic.SweepRun
+"""A run that is to be made."""
 
 
 class Result(NamedTuple):
@@ -70,12 +61,7 @@ class Result(NamedTuple):
 
 def order(study: Study, scene: Scene, differences: Differences) -> Order:
     """The run of a sweep's scene with differences. Raises UsageError for the words of a backend that are none."""
-    key, core, backend, doubles, steps, particles, values, error = _aspic.sweep_run(
-        scene._core, study.backend, study.doubles, list(differences), study.steps, study.duration
-    )
-    # As a file has them.
-    plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values}
-    return Order(key, cast("_aspic.Scene | None", core), backend, doubles, steps, particles, plain, error)
+    return _aspic.sweep_run(scene._core, study.backend, study.doubles, list(differences), study.steps, study.duration)
 
 
 def is_made(study: Study, row: Row | None) -> bool:
@@ -90,34 +76,18 @@ def is_made(study: Study, row: Row | None) -> bool:
     return not study.trajectories or row["outcome"] == "rejected" or row.get("trajectory") == wanted
 
 
-def empty_row(study: Study, run: Order, outcome: str, reason: str) -> Row:
-    """The row of a run that has no figures."""
-    import socket
-
-    return {
-        "aspic": _aspic.version,
-        "key": run.key,
-        "scene": _scene_key(study.scene, study.name),
-        "values": run.values,
-        "backend": run.backend,
-        "precision": "double" if run.doubles else "single",
-        "steps_asked": run.steps,
-        "outcome": outcome,
-        "reason": " ".join(reason.split()),
-        "steps": 0,
-        "figures": {},
-        "hash": "",
-        "solver": "",
-        "seconds": 0.0,
-        "host": socket.gethostname(),
-    }
+def row_of(study: Study, run: Order, outcome: str, reason: str, **result: Any) -> Row:
+    """The row of a run; without figures unless ``result`` has them."""
+    reason = " ".join(reason.split()).encode("utf-8", "replace").decode()
+    row: Row = json.loads(run.file(_scene_key(study.scene, study.name), outcome, reason, **result))
+    return row
 
 
 def rejected_row(study: Study, run: Order) -> Row:
     """The row of a run that its scene or backend refused."""
     code, message = run.error or (0, "")
     # Its first line says what is wrong; others show where.
-    return empty_row(study, run, "rejected", str(error_of(code, message)).split("\n")[0])
+    return row_of(study, run, "rejected", str(error_of(code, message)).split("\n")[0])
 
 
 def scene_of(study: Study) -> Scene:
@@ -159,10 +129,18 @@ class _Running:
             self.figures.take(self.where._core)
 
     def result(self, study: Study) -> tuple[Row, Trajectory | None]:
-        row = empty_row(study, self.run, "ok" if self.reason is None else "diverged", self.reason or "")
+        row = row_of(
+            study,
+            self.run,
+            "ok" if self.reason is None else "diverged",
+            self.reason or "",
+            figures=self.figures,
+            steps=self.where.steps,
+            hash=self.where.hash,
+            solver=self.solver,
+            seconds=self.seconds,
+        )
         trajectory = self.recorder.trajectory() if self.recorder else None
-        row["figures"] = dict(self.figures.figures())
-        row.update(steps=self.where.steps, hash=self.where.hash, solver=self.solver, seconds=self.seconds)
         if self.reason is None and trajectory is not None and study.metrics:
             row["metrics"] = {}
             for name, metric in study.metrics.items():
@@ -246,7 +224,6 @@ def _reason(found: tuple[int, int, bool, str]) -> str:
 
 def _alone(study: Study, run: Order, backend: str) -> tuple[Row, Trajectory | None]:
     """Makes a run with a separate solver."""
-    assert run.scene is not None
     simulation = Simulation._quiet(
         Scene._of(run.scene), backend, threads=study.threads if backend.startswith("cpu") else 0
     )
@@ -263,7 +240,7 @@ def _alone(study: Study, run: Order, backend: str) -> tuple[Row, Trajectory | No
 
 def _together(study: Study, runs: Sequence[Order]) -> list[_Running]:
     """Steps runs of one time step and number of steps as a batch."""
-    batch = Batch([Scene._of(run.scene) for run in runs if run.scene is not None], threads=study.threads)
+    batch = Batch([Scene._of(run.scene) for run in runs], threads=study.threads)
     running = [_Running(study, run, instance, "batch") for run, instance in zip(runs, batch)]
 
     def advance(steps: int) -> None:
@@ -290,7 +267,6 @@ def _taken(backend: str) -> str:
 
 
 def _backend(run: Order) -> str:
-    assert run.scene is not None
     if not run.backend.startswith("auto"):
         return run.backend
     _, _, options = run.backend.partition(":")
@@ -310,7 +286,7 @@ def make_runs(study: Study, batch: Sequence[Differences]) -> list[Result]:
         run = order(study, scene, differences)
         if study.version != _aspic.version:
             reason = f"here is aspic {_aspic.version}, where the sweep began {study.version}"
-            results.append(Result(empty_row(study, run, "failed", reason), False))
+            results.append(Result(row_of(study, run, "failed", reason), False))
             continue
         # Another sweep may have made it since.
         row = folder.read(run.key) if folder else None
@@ -328,10 +304,10 @@ def _groups(study: Study, runs: Sequence[Order]) -> Iterator[list[Order]]:
     """Runs that are made together: small ones of one time step and number of steps on the CPU."""
     alike: dict[Any, list[Order]] = {}
     for run in runs:
-        if run.scene is None or run.particles > SMALL or run.doubles:
+        if run.error is not None or run.particles > SMALL or run.doubles:
             yield [run]
         else:
-            alike.setdefault((run.scene.timestep, run.steps, run.backend), []).append(run)
+            alike.setdefault((run.timestep, run.steps, run.backend), []).append(run)
     for group in alike.values():
         for first in range(0, len(group), study.batch):
             yield group[first : first + study.batch]
@@ -358,9 +334,9 @@ def _made(study: Study, runs: list[Order]) -> Iterator[tuple[Row, Trajectory | N
             made = _alone(study, run, _backend(run))
         except Error as error:
             refused = isinstance(error, UsageError) or error.code == ErrorCode.SCENE_REJECTED
-            made = empty_row(study, run, "rejected" if refused else "failed", str(error).split("\n")[0]), None
+            made = row_of(study, run, "rejected" if refused else "failed", str(error).split("\n")[0]), None
         except Exception as error:
-            made = empty_row(study, run, "failed", f"{type(error).__name__}: {error}"), None
+            made = row_of(study, run, "failed", f"{type(error).__name__}: {error}"), None
         yield made
 
 
@@ -370,6 +346,6 @@ def _keep(folder: Folder | None, row: Row, trajectory: Trajectory | None) -> Res
     try:
         folder.write(row, trajectory)
     except OSError as error:
-        failed = {**row, "outcome": "failed", "reason": f"its file cannot be written: {error.strerror}"}
+        failed = {**row, "outcome": "failed", "reason": f"its file cannot be written: {error}"}
         return Result(failed, True)
     return Result(row, True)

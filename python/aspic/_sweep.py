@@ -18,11 +18,11 @@ from ._runs import (
     Order,
     Result,
     Study,
-    empty_row,
     is_made,
     make_runs,
     order,
     rejected_row,
+    row_of,
     scene_of,
     smallest,
 )
@@ -174,7 +174,7 @@ class _Rows:
             self._keys.append(one.key)
             if one.key in self._rows or one.key in self._left:
                 continue  # two points may be one run
-            if one.scene is None:
+            if one.error is not None:
                 rejected.append(one)
                 continue
             row = self._folder.read(one.key) if self._folder and one.key in there else None
@@ -182,7 +182,7 @@ class _Rows:
                 self._rows[one.key] = row
             else:
                 small = one.particles <= SMALL
-                alike = (one.scene.timestep, one.steps, one.backend) if small else one.key
+                alike = (one.timestep, one.steps, one.backend) if small else one.key
                 self._left[one.key] = (alike, point)
         if rejected and not self._left and not self._rows:
             # A key that is wrong, rather than some of its values.
@@ -213,7 +213,7 @@ class _Rows:
         row = self._folder.read(run.key) if self._folder else None
         if row is not None and is_made(self._study, row):
             return Result(row, True)
-        return Result(empty_row(self._study, run, "failed", reason), False)
+        return Result(row_of(self._study, run, "failed", reason), False)
 
     def in_order(self) -> list[Row]:
         """Those of the points, in their order."""
@@ -225,7 +225,7 @@ class _Rows:
             try:
                 self._folder.write(row, result.trajectory)
             except OSError as error:
-                row = {**row, "outcome": "failed", "reason": f"its file cannot be written: {error.strerror}"}
+                row = {**row, "outcome": "failed", "reason": f"its file cannot be written: {error}"}
         self._rows[row["key"]] = row
 
     def _tell(self) -> None:

@@ -1,16 +1,16 @@
-// Runs of sweeps: their keys and their figures.
+// Runs of sweeps: their keys, figures and files.
 #include <aspic/parameters.h>
 #include <aspic/sweep.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <tuple>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,29 +22,19 @@ namespace aspic::python {
 namespace {
 
 using Differences = std::vector<std::pair<std::string, std::string>>;
-/// Key, scene, backend, whether in double precision, steps, particles, values, error.
-using RunTuple =
-    std::tuple<std::string, nb::object, std::string, bool, std::uint64_t, std::uint64_t,
-               std::vector<std::pair<std::string, nb::object>>, std::optional<std::pair<int, std::string>>>;
-
-RunTuple run_of(const Scene& scene, const std::string& backend, std::optional<bool> doubles,
+SweepRun run_of(const Scene& scene, const std::string& backend, std::optional<bool> doubles,
                 const Differences& differences, std::optional<std::uint64_t> steps,
                 std::optional<double> duration) {
-  SweepRun run;
-  {
-    const Unlocked others;
-    std::vector<Difference> all;
-    for (const auto& [key, value] : differences) all.push_back({key, value});
-    run = sweep_run(scene, choice_of(backend, doubles, 0), {steps, duration}, all);
-  }
-  std::vector<std::pair<std::string, nb::object>> values;
-  for (const auto& [key, value] : run.values) values.emplace_back(key, as_object(value));
-  std::optional<std::pair<int, std::string>> error;
-  if (run.error) error.emplace(static_cast<int>(run.error->code), worded(*run.error, FrontEnd::python));
-  return {run.key,           run.error ? nb::none() : nb::cast(std::move(run.scene)),
-          run.backend_words, run.backend.precision == Precision::double_,
-          run.steps,         run.particles,
-          std::move(values), std::move(error)};
+  const Unlocked others;
+  std::vector<Difference> all;
+  for (const auto& [key, value] : differences) all.push_back({key, value});
+  return sweep_run(scene, choice_of(backend, doubles, 0), {steps, duration}, all);
+}
+
+RunOutcome outcome_of(const std::string& name) {
+  for (const RunOutcome outcome : {RunOutcome::ok, RunOutcome::diverged, RunOutcome::rejected})
+    if (name_of(outcome) == name) return outcome;
+  return RunOutcome::failed;
 }
 
 /// Takes the state of a simulation or an instance.
@@ -58,11 +48,59 @@ void take_state(RunFigures& figures, T& from) {
 }  // namespace
 
 void bind_sweep(nb::module_& module) {
-  module.def(
-      "sweep_run", &run_of, nb::arg("scene"), nb::arg("backend"), nb::arg("doubles").none(),
-      nb::arg("differences"), nb::arg("steps").none(), nb::arg("duration").none(),
-      "Key, scene (None: rejected), backend, whether in double precision, steps, particles, values of the "
-      "differences, error.");
+  nb::class_<SweepRun>(module, "SweepRun", "A run of a sweep.")
+      .def_ro("key", &SweepRun::key, "32 hexadecimal digits, equal for equal runs on every machine.")
+      .def_ro("scene", &SweepRun::scene, "With the differences; that of a rejected run is of no use.")
+      .def_prop_ro(
+          "timestep", [](const SweepRun& run) { return run.scene.model.simulation.timestep; },
+          "Time step [s].")
+      .def_ro("backend", &SweepRun::backend_words, "As it was asked for.")
+      .def_prop_ro(
+          "doubles", [](const SweepRun& run) { return run.backend.precision == Precision::double_; },
+          "Whether it is in double precision.")
+      .def_ro("steps", &SweepRun::steps, "To be made.")
+      .def_ro("particles", &SweepRun::particles, "That are moved.")
+      .def_prop_ro(
+          "error",
+          [](const SweepRun& run) {
+            std::optional<std::pair<int, std::string>> error;
+            if (run.error)
+              error.emplace(static_cast<int>(run.error->code), worded(*run.error, FrontEnd::python));
+            return error;
+          },
+          "Code and message of a run that was rejected.")
+      .def(
+          "file",
+          [](const SweepRun& run, const std::string& scene, const std::string& outcome, std::string reason,
+             const RunFigures* figures, std::uint64_t steps, std::string hash, std::string solver,
+             double seconds) {
+            return run_file(run,
+                            {outcome_of(outcome), std::move(reason), steps,
+                             figures ? figures->figures() : std::vector<RunFigure>(), std::move(hash),
+                             std::move(solver), seconds},
+                            scene);
+          },
+          nb::arg("scene"), nb::arg("outcome"), nb::arg("reason"), nb::arg("figures").none() = nb::none(),
+          nb::arg("steps") = 0, nb::arg("hash") = "", nb::arg("solver") = "", nb::arg("seconds") = 0.0,
+          "The run's file, JSON; of one that was not made, without figures.");
+  module.def("sweep_run", &run_of, nb::arg("scene"), nb::arg("backend"), nb::arg("doubles").none(),
+             nb::arg("differences"), nb::arg("steps").none(), nb::arg("duration").none(),
+             "The run of a scene with differences.");
+  nb::class_<RunFolder>(module, "RunFolder", "Finished runs, a file each.")
+      .def(nb::init<std::string>(), nb::arg("path"))
+      .def(
+          "make", [](const RunFolder& folder, const Scene& scene) { check(folder.make(scene)); },
+          nb::arg("scene"), "Makes the folder, with the scene that its runs differ from.")
+      .def("read", &RunFolder::read, nb::arg("key"), "None: missing, damaged or no regular file.")
+      .def(
+          "write",
+          [](const RunFolder& folder, const std::string& key, const std::string& ending, nb::bytes content) {
+            const std::string_view bytes(content.c_str(), content.size());
+            const Unlocked others;
+            check(folder.write(key, ending, bytes));
+          },
+          nb::arg("key"), nb::arg("ending"), nb::arg("content"), "Keeps the file KEY.ENDING.")
+      .def("file", &RunFolder::file, nb::arg("key"), nb::arg("ending"), "The path of a file.");
   module.def("scene_key", &scene_key, nb::arg("scene"), "The name of its complete file.");
   nb::class_<RunFigures>(module, "RunFigures", "The figures of a run, from its states.")
       .def(

@@ -60,7 +60,7 @@ def test_the_stub_has_what_the_extension_module_has() -> None:
     module = sys.modules["aspic._aspic"]
     assert names(stub.body) == {name for name in dir(module) if not name.startswith("_")}
     classes = [part for part in stub.body if isinstance(part, ast.ClassDef)]
-    present = {"ActuatorWork", "Batch", "Export", "InputLog", "Instance", "RunFigures", "Scene", "Simulation", "State"}
+    present = {"ActuatorWork", "Batch", "Export", "InputLog", "Instance", "RunFigures", "RunFolder", "Scene", "Simulation", "State", "SweepRun"}
     assert {part.name for part in classes} == present
     for part in classes:
         members = {name for name in vars(getattr(module, part.name)) if not name.startswith("_")}

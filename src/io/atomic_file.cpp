@@ -262,11 +262,11 @@ Status AtomicFile::give_final_name() {
   return {};
 }
 
-Status AtomicFile::commit() {
+Status AtomicFile::commit(bool wait) {
   ASPIC_CHECK(require_open());
   ASPIC_CHECK(flush());
   const bool device = temporary_.empty();
-  if (!device && ::fsync(descriptor_) != 0) return give_up(errno);
+  if (wait && !device && ::fsync(descriptor_) != 0) return give_up(errno);
   if (::close(std::exchange(descriptor_, -1)) != 0) return give_up(errno);
   if (device) return {};
   if (const Status named = give_final_name(); !named) {

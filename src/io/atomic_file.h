@@ -37,10 +37,10 @@ class AtomicFile {
   /// write().
   Status replace(std::uint64_t offset, std::string_view bytes);
 
-  /// Flushes, waits for the disk and gives the file its final name. Error too if another program has put a
-  /// file there in the meantime and overwriting was refused: neither file is lost then, but this one is
-  /// discarded.
-  Status commit();
+  /// Flushes, waits for the disk unless a file that a power cut damages does no harm, and gives the file its
+  /// final name. Error too if another program has put a file there in the meantime and overwriting was
+  /// refused: neither file is lost then, but this one is discarded.
+  Status commit(bool wait = true);
 
   const std::string& path() const { return path_; }
   /// The temporary file, which another program may write instead of write(); empty for devices and pipes.

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <mutex>
@@ -16,13 +17,14 @@
 #include <span>
 #include <thread>
 
+#include "base/printable.h"
 #include "cpu_parallel/workers.h"
 #include "io/atomic_file.h"
 #include "io/child_process.h"
 #include "io/console.h"
 #include "report/csv.h"
-#include "report/run_folder.h"
 #include "report/sweep_rows.h"
+#include "run/run_folder.h"
 #include "run/window_host.h"
 
 namespace aspic::report {
@@ -35,11 +37,31 @@ struct Greeting {
 };
 constexpr std::string_view ready = "ready";
 
+/// A folder of runs of one scene.
+struct Kept {
+  RunFolder folder;
+  std::string scene;
+
+  std::optional<RunRow> read(const SweepRun& run) const {
+    const auto file = folder.read(run.key);
+    return file ? row_in(*file) : std::nullopt;
+  }
+  Status write(const SweepRun& run, const RunRow& row) const {
+    return folder.write(run.key, "json", run_file(run, row, scene));
+  }
+};
+
+Result<Kept> open_folder(const std::string& path, const Scene& scene) {
+  Kept kept = {RunFolder(path), scene_key(scene)};
+  ASPIC_CHECK(kept.folder.make(scene));
+  return kept;
+}
+
 /// A process that does one run after another, restarted when a run takes it down.
 class Worker {
  public:
   /// `folder`: null, or where a run that takes the process down is kept.
-  Worker(const std::vector<std::string>& command, const Greeting& greeting, const RunFolder* folder)
+  Worker(const std::vector<std::string>& command, const Greeting& greeting, const Kept* folder)
       : command_(command), greeting_(greeting), folder_(folder) {}
 
   /// The row of a run; nothing once the worker was told to end. Error (io): no process.
@@ -60,8 +82,7 @@ class Worker {
     if (folder_) {
       const SweepRun run = grid_run(grid, index);
       // It may have been kept before its process ended.
-      if (const auto kept = folder_->read(run); kept && *kept)
-        return std::optional(sweep_row(grid, index, **kept));
+      if (const auto kept = folder_->read(run)) return std::optional(sweep_row(grid, index, *kept));
       // Where that fails it is as if it had not been run, which is what the next sweep takes it for anyway.
       (void)folder_->write(run, lost);
     }
@@ -98,7 +119,7 @@ class Worker {
 
   const std::vector<std::string>& command_;
   const Greeting& greeting_;
-  const RunFolder* folder_;
+  const Kept* folder_;
   std::mutex mutex_;  // of all below; child_ itself changes on the worker's own thread alone
   bool ended_ = false;
   std::optional<ChildProcess> child_;
@@ -108,7 +129,7 @@ class Worker {
 class Crew {
  public:
   Crew(const SweepPlan& plan, const Greeting& greeting, unsigned jobs, std::deque<std::size_t> runs,
-       const RunFolder* folder)
+       const Kept* folder)
       : plan_(plan), runs_(std::move(runs)) {
     for (unsigned j = 0; j < jobs; ++j)
       workers_.push_back(std::make_unique<Worker>(plan.command, greeting, folder));
@@ -215,17 +236,23 @@ class KeptRows {
       kept.journal_.emplace(std::move(journal));
       return kept;
     }
-    ASPIC_TRY(auto folder, RunFolder::open(plan.runs, plan.grid.scene));
+    ASPIC_TRY(kept.folder_, open_folder(plan.runs, plan.grid.scene));
     for (std::size_t i = plan.first(); i < plan.end(); ++i) {
-      ASPIC_TRY(const auto row, folder.read(grid_run(plan.grid, i)));
+      const SweepRun run = grid_run(plan.grid, i);
+      std::error_code ignored;
+      if (const std::string file = kept.folder_->folder.file(run.key, "json");
+          std::filesystem::is_directory(file, ignored))
+        return fail(ErrorCode::io,
+                    "{} is a directory in the place of a run; move it, or give another --runs.",
+                    printable_line(file));
+      const auto row = kept.folder_->read(run);
       if (row && !plan.force) kept.rows_[i] = sweep_row(plan.grid, i, *row);
     }
-    kept.folder_.emplace(std::move(folder));
     return kept;
   }
 
   const std::map<std::size_t, std::string>& rows() const { return rows_; }
-  const RunFolder* folder() const { return folder_ ? &*folder_ : nullptr; }
+  const Kept* folder() const { return folder_ ? &*folder_ : nullptr; }
   Status add(std::size_t index, const std::string& row) {
     if (journal_) ASPIC_CHECK(journal_->add(index, row));
     rows_[index] = row;
@@ -239,7 +266,7 @@ class KeptRows {
  private:
   std::map<std::size_t, std::string> rows_;
   std::optional<SweepJournal> journal_;
-  std::optional<RunFolder> folder_;
+  std::optional<Kept> folder_;
 };
 
 Result<AtomicFile> open_output(const SweepPlan& plan) {
@@ -304,9 +331,9 @@ Status serve_sweep(const Grid& grid, const std::string& runs) {
   std::cin >> identity >> backend >> threads;
   if (!std::cin || identity != grid.identity())
     return fail(ErrorCode::usage, "the scene has changed since the sweep began; start over with --force.");
-  std::optional<RunFolder> folder;
+  std::optional<Kept> folder;
   if (!runs.empty()) {
-    ASPIC_TRY(folder, RunFolder::open(runs, grid.scene));
+    ASPIC_TRY(folder, open_folder(runs, grid.scene));
   }
   ASPIC_CHECK(print_data(fmt::format("{}\n", ready)));
   for (std::size_t index = 0; std::cin >> index;) {

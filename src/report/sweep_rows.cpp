@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "base/printable.h"
 #include "report/csv.h"
+#include "run/run_folder.h"
 #include "run/sweep_figures.h"
 
 namespace aspic::report {

@@ -14,16 +14,6 @@
 
 namespace aspic::report {
 
-/// A run as its row tells of it.
-struct RunRow {
-  Outcome outcome = Outcome::ok;
-  std::string reason;              ///< one line; empty: ok
-  std::uint64_t steps = 0;         ///< the last good one
-  std::vector<RunFigure> figures;  ///< in the order of columns; empty: it never began
-  std::string hash;                ///< of the last good state
-  std::string solver;              ///< Backend::variant()
-  double seconds = 0.0;            ///< that its steps took
-};
 RunRow row_of(const TrialResult& result);
 
 /// The header line with its line end: run, the keys, the figures, and last the seconds, the one column that

@@ -10,17 +10,6 @@
 
 namespace aspic::report {
 
-std::string_view name_of(Outcome outcome) {
-  constexpr std::string_view names[] = {"ok", "diverged", "rejected", "failed"};
-  return names[static_cast<std::size_t>(outcome)];
-}
-
-std::optional<Outcome> outcome_named(std::string_view name) {
-  for (const Outcome outcome : {Outcome::ok, Outcome::diverged, Outcome::rejected, Outcome::failed})
-    if (name == name_of(outcome)) return outcome;
-  return std::nullopt;
-}
-
 TrialResult trial_error(const Error& error) {
   const bool refused = error.code == ErrorCode::usage || error.code == ErrorCode::scene_rejected;
   TrialResult result;

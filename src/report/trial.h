@@ -10,21 +10,14 @@
 
 #include "analysis/course.h"
 #include "aspic/scene.h"
+#include "aspic/sweep.h"
 #include "run/backends.h"
 #include "run/run_length.h"
 #include "run/sweep_figures.h"
 
 namespace aspic::report {
 
-enum class Outcome {
-  ok,
-  diverged,  ///< figures are those of the last good step
-  rejected,  ///< by scene or backend, before its first step
-  failed     ///< device, memory or process; it may succeed another time
-};
-std::string_view name_of(Outcome outcome);
-/// The outcome of that name; nothing if there is none.
-std::optional<Outcome> outcome_named(std::string_view name);
+using Outcome = RunOutcome;
 
 struct TrialResult {
   Outcome outcome = Outcome::ok;

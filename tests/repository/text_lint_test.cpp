@@ -164,9 +164,9 @@ TEST(PublicHeaders, AreFewAndIncludeTheStandardLibraryAndEachOther) {
     names.insert(entry.path().filename().string());
     EXPECT_THAT(not_public(text), ::testing::IsEmpty()) << entry.path();
   }
-  // Room for what every front end says of an error and for the threads of every class; 115 are batch.h, 90
+  // Room for what every front end says of an error and for the threads of every class; 115 are batch.h, 135
   // sweep.h, 25 what watches bodies that come to be within each other, 70 actuators.
-  EXPECT_LE(lines, 2100u) << "a user reads them all";
+  EXPECT_LE(lines, 2150u) << "a user reads them all";
   names.insert("version.h");  // generated
   const std::string all = contents(root / "include/aspic/aspic.h");
   names.erase("aspic.h");
