@@ -6,8 +6,8 @@
 
 namespace aspic::bench {
 
+using physics::Vector;
 using reference::Trial;
-using reference::Vector;
 
 AssembledSystem::AssembledSystem(const Model& model)
     : model_(model),
@@ -47,8 +47,7 @@ std::size_t AssembledSystem::place(std::uint32_t row, std::uint32_t column) cons
 }
 
 /// H on the diagonal, −H off it.
-void AssembledSystem::add(const Spring& spring, const reference::SpringJacobian<float>& H,
-                          std::size_t number) {
+void AssembledSystem::add(const Spring& spring, const physics::SpringJacobian<float>& H, std::size_t number) {
   const Eigen::Matrix3f part =
       H.across * Eigen::Matrix3f::Identity() + (H.along - H.across) * (H.n * H.n.transpose());
   const auto& [aa, ab, ba, bb] = places_[number];
@@ -78,7 +77,7 @@ Trial<float> AssembledSystem::evaluate() {
     const Spring& spring = springs_[n];
     const Vector<float> v = trial_.col(spring.a) - trial_.col(spring.b);
     const Vector<float> e = (s_->x.col(spring.a) - s_->x.col(spring.b)) + h_ * v;
-    const auto [on_a, H] = reference::linearised<float>(dynamics_.spring_class(spring), h_, e, v);
+    const auto [on_a, H] = physics::linearised<float>(dynamics_.spring_class(spring), h_, e, v);
     f.col(spring.a) += on_a;
     f.col(spring.b) -= on_a;
     add(spring, H, n);
@@ -89,7 +88,7 @@ Trial<float> AssembledSystem::evaluate() {
     const Vector<float> change = trial_.col(i) - s_->v.col(i);
     const Vector<float> R = change - h_ * (dynamics_.inverse_mass(i) * f.col(i));
     r_.col(i) = h_ * f.col(i) - dynamics_.mass(i) * change;
-    result.residual = std::max(result.residual, reference::largest_component<float>(R));
+    result.residual = std::max(result.residual, physics::largest_component<float>(R));
     result.merit += R.squaredNorm();
     result.falling += (R + h_ * dynamics_.gravity()).squaredNorm();
   }
@@ -123,7 +122,7 @@ void AssembledSystem::solve(float forcing, std::uint32_t most, std::uint32_t& it
   delta_ = Eigen::Map<const Field>(solution.data(), 3, r_.cols());
 }
 
-reference::Phase<float> AssembledSystem::step(const reference::Phase<float>& s, SolveReport& report) {
+physics::Phase<float> AssembledSystem::step(const physics::Phase<float>& s, SolveReport& report) {
   s_ = &s;
   const bool accepted = reference::solve_step(*this, limits_, report);
   const Field& v = accepted ? trial_ : base_;

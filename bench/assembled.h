@@ -14,7 +14,7 @@ class AssembledSystem {
   explicit AssembledSystem(const Model& model);
 
   /// A step from `s` on.
-  reference::Phase<float> step(const reference::Phase<float>& s, SolveReport& report);
+  physics::Phase<float> step(const physics::Phase<float>& s, SolveReport& report);
 
   // What solve_step() asks of a system.
   reference::Trial<float> start();
@@ -28,11 +28,11 @@ class AssembledSystem {
   void solve(float forcing, std::uint32_t most, std::uint32_t& iterations);
 
  private:
-  using Field = reference::Field<float>;
+  using Field = physics::Field<float>;
   using Matrix = Eigen::SparseMatrix<float, Eigen::RowMajor>;
 
   reference::Trial<float> evaluate();
-  void add(const Spring& spring, const reference::SpringJacobian<float>& H, std::size_t number);
+  void add(const Spring& spring, const physics::SpringJacobian<float>& H, std::size_t number);
   std::size_t place(std::uint32_t row, std::uint32_t column) const;
 
   const Model& model_;
@@ -40,7 +40,7 @@ class AssembledSystem {
   reference::Dynamics<float> dynamics_;
   reference::SolveLimits<float> limits_;
   float h_;
-  const reference::Phase<float>* s_ = nullptr;
+  const physics::Phase<float>* s_ = nullptr;
   Field base_, trial_, delta_, r_;
   Matrix matrix_;
   /// Where row 0 of each spring's 3×3 blocks begins among the matrix's values: (a, a), (a, b), (b, a), (b,

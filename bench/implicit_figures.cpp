@@ -105,10 +105,10 @@ void free_assembled(benchmark::State& state) {
   const Model model = free_cube(static_cast<int>(state.range(0)));
   bench::AssembledSystem system(model);
   const aspic::State start = wobbling(model);
-  reference::Phase<float> s;
+  physics::Phase<float> s;
   SolveStatistics solves;
   for ([[maybe_unused]] auto _ : state) {
-    s = {reference::field<float>(start.position), reference::field<float>(start.velocity)};
+    s = {physics::field<float>(start.position), physics::field<float>(start.velocity)};
     solves = {};
     for (std::uint64_t n = 0; n < free_steps; ++n) {
       SolveReport step;
@@ -120,7 +120,7 @@ void free_assembled(benchmark::State& state) {
   const auto solver = taken(make_cpu_solver(model, {1}));
   if (!solver->load(start).ok()) return state.SkipWithError("no state");
   taken(solver->advance(free_steps));
-  const auto expected = reference::field<float>(taken(solver->state()).velocity);
+  const auto expected = physics::field<float>(taken(solver->state()).velocity);
   const double most = 2.0 * static_cast<double>(free_steps) *
                       implicit_tolerance(model.simulation.implicit, Precision::single);
   const double difference = static_cast<double>((expected - s.v).cwiseAbs().maxCoeff());

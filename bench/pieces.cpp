@@ -12,9 +12,9 @@
 #include "cpu_parallel/kernels.h"
 #include "cpu_parallel/lattice_kernels.h"
 #include "cpu_parallel/springs.h"
-#include "cpu_reference/reductions.h"
 #include "model/counts.h"
 #include "model/incident_springs.h"
+#include "physics/reductions.h"
 #include "rates.h"
 
 namespace aspic {
@@ -177,7 +177,7 @@ void contact(State& state) {
 
 void reduction(State& state) {
   const std::vector<float> values(static_cast<std::size_t>(state.range(0)), 1.5f);
-  while (state.KeepRunning()) benchmark::DoNotOptimize(reference::tree_sum(values));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(physics::tree_sum(values));
   count_items(state, "numbers", values.size());
 }
 

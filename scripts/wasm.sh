@@ -29,7 +29,7 @@ ln -sfn /usr/include/eigen3/Eigen "$made/include/Eigen"
 
 # What a browser needs, without files, TOML and devices.
 cd "$root"
-sources=(src/base/{flush_denormals,printable,result,suggestion,wording}.cpp src/model/*.cpp src/cpu_reference/*.cpp src/analysis/energy.cpp
+sources=(src/base/{flush_denormals,printable,result,suggestion,wording}.cpp src/model/*.cpp src/physics/contact/*.cpp src/collision/*.cpp src/cpu_reference/*.cpp src/analysis/energy.cpp
   src/scene/{actuator_rows,body_rows,diagnostics,follow,key_lines,parameter_table,parameters,scene_checks,short_keys,write}.cpp src/live/*.cpp)
 
 # The same arithmetic as everywhere (docs/determinism.md): no contraction, no fast-math. WebAssembly has no exceptions yet.

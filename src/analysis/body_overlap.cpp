@@ -10,12 +10,12 @@
 #include <span>
 #include <utility>
 
-#include "cpu_reference/body_contact.h"
+#include "collision/contact_search.h"
 
 namespace aspic {
 namespace {
 
-using Vector = reference::Vector<double>;
+using Vector = physics::Vector<double>;
 
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 
@@ -36,7 +36,7 @@ class Skin {
  public:
   Skin(std::span<const TouchTriangle> triangles, const State& state) {
     for (const TouchTriangle& t : triangles) {
-      const auto x = [&](std::size_t n) { return reference::rounded<double>(state.position[t.corner[n]]); };
+      const auto x = [&](std::size_t n) { return physics::rounded<double>(state.position[t.corner[n]]); };
       faces_.push_back({x(0), x(1), x(2)});
     }
     for (std::size_t first = 0; first < faces_.size(); first += block_size) {
@@ -59,7 +59,7 @@ class Skin {
       if (away.squaredNorm() >= most * most) continue;
       for (std::size_t n = block.first; n < block.end; ++n) {
         const auto& [A, B, C] = faces_[n];
-        const auto at = reference::nearest_place<double>(P, A, B, C);
+        const auto at = physics::nearest_place<double>(P, A, B, C);
         most = std::min(most, (((P - A) - at.b * (B - A)) - at.c * (C - A)).norm());
       }
     }
@@ -172,7 +172,7 @@ void DeepPoints::take(const State& state, const Boxes& boxes, std::uint32_t a, s
     bool in = true;
     for (int axis = 0; axis < 3; ++axis)
       in = in && x[axis] >= boxes[b].low[axis] + D && x[axis] <= boxes[b].high[axis] - D;
-    if (in) candidates.push_back(reference::rounded<double>(x));
+    if (in) candidates.push_back(physics::rounded<double>(x));
   }
   if (candidates.empty()) return;
   const Skin skin(std::span(surfaces_.triangles).subspan(faces.first_triangle, faces.triangle_count), state);
@@ -200,7 +200,7 @@ double deepest_within(const Skin& skin, const std::vector<Vector>& places) {
 void add_particles_within(const Model& model, const State& state, const TouchSurfaces& surfaces,
                           DeepPoints::Found& overlaps) {
   std::vector<Eigen::AlignedBox3d> boxes;
-  const auto place = [&](std::size_t p) { return reference::rounded<double>(state.position[p]); };
+  const auto place = [&](std::size_t p) { return physics::rounded<double>(state.position[p]); };
   const auto for_particles = [&](const TouchBody& of, const auto& use) {
     const Body& body = model.bodies[of.body];
     for (std::size_t n = 0; n < body.particle_count; ++n) use(place(body.first_particle + n));
@@ -249,7 +249,7 @@ std::vector<std::uint32_t> outside_crowds(const Model& model, const State& state
   for (const Body& body : model.bodies) {
     Eigen::AlignedBox3d& box = boxes.emplace_back();
     for (std::size_t n = 0; n < body.particle_count; ++n)
-      box.extend(reference::rounded<double>(state.position[body.first_particle + n]));
+      box.extend(physics::rounded<double>(state.position[body.first_particle + n]));
   }
   std::vector<std::uint32_t> along(boxes.size()), before, chosen;
   std::iota(along.begin(), along.end(), std::uint32_t{0});
@@ -289,10 +289,10 @@ std::vector<BodyOverlap> overlaps_of(const Model& all, const State& state) {
   for (const BodyOverlap& each :
        DeepPoints(model).find(state, [](std::uint32_t, std::uint32_t) { return false; }))
     pair_of(overlaps, each.a, each.b) = each;
-  using Contact = reference::BodyContact<double>;
+  using Contact = collision::ContactSearch<double>;
   Contact contact(model);
-  const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
-  const Contact::Particles at = {reference::components(x.data()), reference::components(v.data()), 3};
+  const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
+  const Contact::Particles at = {physics::components(x.data()), physics::components(v.data()), 3};
   if (contact.begin_step(state.step, at)) contact.find(at);
   const auto body_at = [&](std::uint32_t number, std::uint32_t TouchBody::*first) -> const TouchBody& {
     return *(std::ranges::upper_bound(surfaces.bodies, number, {}, first) - 1);
@@ -311,7 +311,7 @@ std::vector<BodyOverlap> overlaps_of(const Model& all, const State& state) {
       if (!skin)
         skin = std::make_unique<Skin>(
             std::span(surfaces.triangles).subspan(faces.first_triangle, faces.triangle_count), state);
-      const Vector P = reference::over_carriers<double>(
+      const Vector P = physics::over_carriers<double>(
           touch, [&](std::uint32_t place) { return Vector(at.position(contact.particles()[place])); });
       overlap.deepest = std::max(overlap.deepest, skin->distance(P, -touch.d));
     }

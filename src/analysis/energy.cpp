@@ -6,22 +6,22 @@
 #include <utility>
 
 #include "aspic/analysis.h"
-#include "cpu_reference/body_contact.h"
+#include "collision/contact_search.h"
 #include "model/counts.h"
 #include "model/springs.h"
 
 namespace aspic {
 
 struct Meter::Parts {
-  using Contact = reference::BodyContact<double>;
+  using Contact = collision::ContactSearch<double>;
   const Model& model;
   std::optional<Contact> contact;  // from the first state on, where bodies touch
 
   /// The elastic energy of contacts between bodies [J].
   double push_energy(const State& state) {
     if (!contact) contact.emplace(model);
-    const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
-    const Contact::Particles at = {reference::components(x.data()), reference::components(v.data()), 3};
+    const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
+    const Contact::Particles at = {physics::components(x.data()), physics::components(v.data()), 3};
     return contact->begin_step(state.step, at) && contact->find(at) ? contact->energy() : 0.0;
   }
 };

@@ -9,15 +9,15 @@
 namespace aspic {
 namespace {
 
-using reference::Ground;
-using Vector = reference::Vector<double>;
+using physics::Ground;
+using Vector = physics::Vector<double>;
 
 }  // namespace
 
 std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder& springs, const State& state,
                                          const Inputs& inputs, const TouchForces* bodies) {
   assert(check_sizes(model, state));
-  const reference::ContactConstants<double> constants(model);
+  const physics::ContactConstants<double> constants(model);
   std::vector<Ground<double>> grounds(model.terrain.begin(), model.terrain.end());
   for (Ground<double>& ground : grounds) ground.begin_step(model.simulation.timestep, state.step);
   const auto back = [](const Vector& a) { return Vec3{a.x(), a.y(), a.z()}; };
@@ -30,18 +30,18 @@ std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder&
     if (w == 0.0) continue;
     if (next != touched.end() && next->particle == i)
       contacts.push_back({i, ParticleContact::of_bodies, next->normal, next->force});
-    const Vector x = reference::rounded<double>(state.position[i]);
+    const Vector x = physics::rounded<double>(state.position[i]);
     std::optional<Vector> f;
     for (std::size_t k = 0; k < grounds.size(); ++k) {
       const Ground<double>& ground = grounds[k];
-      if (!(reference::distance<double>(ground, ground.start, x) < constants.epsilon)) continue;
+      if (!(physics::distance<double>(ground, ground.start, x) < constants.epsilon)) continue;
       if (!f) {
         const ParticleForce force = particle_force(model, springs, state, i, inputs, bodies);
-        f = reference::rounded<double>(force.gravity + force.springs + force.pull + force.bodies);
+        f = physics::rounded<double>(force.gravity + force.springs + force.pull + force.bodies);
       }
       const Vector before = *f;
-      f = with_contact(model, constants, ground, w, x, reference::rounded<double>(state.velocity[i]), before);
-      contacts.push_back({i, k, back(reference::gap<double>(ground, ground.start, x).n), back(*f - before)});
+      f = with_contact(model, constants, ground, w, x, physics::rounded<double>(state.velocity[i]), before);
+      contacts.push_back({i, k, back(physics::gap<double>(ground, ground.start, x).n), back(*f - before)});
     }
   }
   return contacts;

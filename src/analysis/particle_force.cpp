@@ -5,10 +5,10 @@
 
 #include "analysis/contact_force.h"
 #include "analysis/touch_forces.h"
-#include "cpu_reference/spring.h"
 #include "model/counts.h"
 #include "model/inputs.h"
 #include "model/springs.h"
+#include "physics/springs/law.h"
 
 namespace aspic {
 namespace {
@@ -51,9 +51,9 @@ std::vector<Spring> SpringFinder::of(const Model& model, std::uint32_t particle)
 
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
                              std::uint32_t particle, const Inputs& inputs, const TouchForces* bodies) {
-  using Vector = reference::Vector<double>;
+  using Vector = physics::Vector<double>;
   assert(check_sizes(model, state) && particle < model.particle_count());
-  const auto exact = [](const Vec3& v) { return reference::rounded<double>(v); };
+  const auto exact = [](const Vec3& v) { return physics::rounded<double>(v); };
   const auto back = [](const Vector& v) { return Vec3{v.x(), v.y(), v.z()}; };
   const Vector x = exact(state.position[particle]), v = exact(state.velocity[particle]);
   ParticleForce force;
@@ -61,8 +61,8 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
   Vector net = exact(force.gravity), sum = Vector::Zero();
   const std::vector<double> lengths = rest_lengths(model, state.step, 0.0, inputs.channels);
   const auto pulled = [&](const SpringClass& spring, const Vec3& other_x, const Vec3& other_v) -> Vector {
-    return reference::spring_force<double>(reference::SpringConstants<double>(spring), x, v, exact(other_x),
-                                           exact(other_v));
+    return physics::spring_force<double>(physics::SpringConstants<double>(spring), x, v, exact(other_x),
+                                         exact(other_v));
   };
   for (const Spring& spring : springs.of(model, particle)) {
     const std::uint32_t other = spring.a == particle ? spring.b : spring.a;
@@ -92,9 +92,9 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
     return force;
   }
   const Vector before = net;
-  const reference::ContactConstants<double> constants(model);
+  const physics::ContactConstants<double> constants(model);
   for (const Terrain& terrain : model.terrain) {
-    reference::Ground<double> ground(terrain);
+    physics::Ground<double> ground(terrain);
     ground.begin_step(model.simulation.timestep, state.step);
     net = with_contact(model, constants, ground, w, x, v, net);
   }
@@ -110,9 +110,9 @@ ParticleForce ball_force(const Model& model, const State& state, std::uint32_t b
   force.gravity = model.balls[ball].mass * model.simulation.gravity;
   for (const Pull& pull : inputs.pulls) {
     if (!pull.ball || pull.particle != ball) continue;
-    const auto exact = [](const Vec3& v) { return reference::rounded<double>(v); };
-    const reference::Vector<double> f = reference::spring_force<double>(
-        reference::SpringConstants<double>(spring_of(pull)), exact(state.ball_position[ball]),
+    const auto exact = [](const Vec3& v) { return physics::rounded<double>(v); };
+    const physics::Vector<double> f = physics::spring_force<double>(
+        physics::SpringConstants<double>(spring_of(pull)), exact(state.ball_position[ball]),
         exact(state.ball_velocity[ball]), exact(pull.anchor), exact({}));
     force.pull = force.pull + Vec3{f.x(), f.y(), f.z()};
   }

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-#include "cpu_reference/body_contact.h"
+#include "collision/contact_search.h"
 #include "model/inputs.h"
 #include "model/integrator.h"
 
 namespace aspic {
 namespace {
 
-using Contact = reference::BodyContact<double>;
-using Vector = reference::Vector<double>;
+using Contact = collision::ContactSearch<double>;
+using Vector = physics::Vector<double>;
 
 Vec3 back(const Vector& v) {
   return {v.x(), v.y(), v.z()};
@@ -38,19 +38,19 @@ TouchForces::~TouchForces() = default;
 void TouchForces::find(const SpringFinder& springs, const State& state, const Inputs& inputs) {
   forces_.clear();
   if (!contact_) return;
-  const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
-  const Contact::Particles at = {reference::components(x.data()), reference::components(v.data()), 3};
+  const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
+  const Contact::Particles at = {physics::components(x.data()), physics::components(v.data()), 3};
   if (!contact_->begin_step(state.step, at) || !contact_->find(at)) return;
   std::vector<Vector> before, pushes(contact_->particles().size(), Vector::Zero());
   for (const std::uint32_t p : contact_->particles()) {
     const ParticleForce f = particle_force(model_, springs, state, p, inputs);
-    before.push_back(reference::rounded<double>(f.gravity + f.springs + f.pull));
+    before.push_back(physics::rounded<double>(f.gravity + f.springs + f.pull));
   }
   std::vector<Vector> after = before;
   contact_->act(
       at, [&](std::uint32_t p) { return inverse_mass_of(model_, inputs, p); }, after);
-  reference::spread<double>(contact_->touches(), pushes,
-                            [](const auto& touch) { return Vector(touch.push * touch.n); });
+  physics::spread<double>(contact_->touches(), pushes,
+                          [](const auto& touch) { return Vector(touch.push * touch.n); });
   std::vector<bool> pushed(before.size(), false);
   for (const auto& touch : contact_->touches()) {
     if (!(touch.push > 0.0)) continue;

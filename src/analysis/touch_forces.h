@@ -9,9 +9,9 @@
 
 namespace aspic {
 
-namespace reference {
+namespace collision {
 template <class T>
-class BodyContact;
+class ContactSearch;
 }
 
 /// Pushes and friction of other bodies on one particle, of those whose points it carries and those that touch
@@ -40,7 +40,7 @@ class TouchForces {
 
  private:
   const Model& model_;
-  std::unique_ptr<reference::BodyContact<double>> contact_;  // none where no bodies can touch
+  std::unique_ptr<collision::ContactSearch<double>> contact_;  // none where no bodies can touch
   std::vector<TouchForce> forces_;
 };
 

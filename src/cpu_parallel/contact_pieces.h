@@ -12,7 +12,7 @@
 
 namespace aspic::parallel {
 
-using Vector = reference::Vector<float>;
+using Vector = physics::Vector<float>;
 
 inline Vector vector_of(const VectorArray& a, std::size_t i) {
   return {a[0][i], a[1][i], a[2][i]};

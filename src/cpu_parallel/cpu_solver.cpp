@@ -10,15 +10,17 @@
 #include <variant>
 
 #include "base/flush_denormals.h"
+#include "collision/ball_search.h"
 #include "cpu_parallel/contact_pieces.h"
 #include "cpu_parallel/kernels.h"
 #include "cpu_parallel/steps.h"
-#include "cpu_reference/balls.h"
-#include "cpu_reference/divergence.h"
+#include "cpu_reference/integrators.h"
 #include "model/counts.h"
 #include "model/pull.h"
 #include "model/reading.h"
 #include "model/springs.h"
+#include "physics/balls/balls.h"
+#include "physics/divergence.h"
 
 namespace aspic {
 namespace parallel {
@@ -105,7 +107,7 @@ class CpuSolver final : public Solver {
   Result<std::uint64_t> give_state(const StateView& to) override;
   Status take_inputs(const Inputs& inputs) override;
   Status take_constants(SharedModel model, std::uint64_t step) override;
-  std::vector<std::pair<std::size_t, reference::Vector<float>>> hold_pins();
+  std::vector<std::pair<std::size_t, physics::Vector<float>>> hold_pins();
   std::uint64_t heap_bytes() const;
   void step();
   void move_balls();
@@ -115,7 +117,7 @@ class CpuSolver final : public Solver {
   SharedModel model_;
   const bool reports_solves_;
   reference::Dynamics<float> dynamics_;
-  reference::Balls<float> balls_;
+  physics::Balls<float, collision::BallSearch> balls_;
   std::shared_ptr<Workers> workers_;
   std::vector<Springs> springs_;  // by body
   std::optional<MovingLengths> lengths_;
@@ -123,7 +125,7 @@ class CpuSolver final : public Solver {
   SolveStatistics statistics_;
   FloatArray mass_, inverse_mass_;
   Particles state_, next_;
-  reference::BallPhase<float> ball_phase_, next_balls_;
+  physics::BallPhase<float> ball_phase_, next_balls_;
   bool pins_held_ = false;  // no pinned particle moves
   std::uint64_t step_ = 0;
   std::uint64_t bytes_;  ///< without contacts, which come and go
@@ -165,7 +167,7 @@ Status CpuSolver::take_state(const ConstStateView& view, std::uint64_t step) {
   const Vectors own[] = {strided<float>(state_.x, count), strided<float>(state_.v, count)};
   for (std::size_t n = 0; n < std::size(own); ++n)
     share([&](Range range) { copy_vectors(part_of(view[n], range), part_of(own[n], range)); });
-  reference::Field<float>* const balls[] = {&ball_phase_.x, &ball_phase_.v, &ball_phase_.omega};
+  physics::Field<float>* const balls[] = {&ball_phase_.x, &ball_phase_.v, &ball_phase_.omega};
   static_assert(2 + std::size(balls) == state_fields.size());
   for (std::size_t n = 0; n < std::size(balls); ++n) {
     balls[n]->resize(3, static_cast<Eigen::Index>(model_->ball_count()));
@@ -181,7 +183,7 @@ Status CpuSolver::take_state(const ConstStateView& view, std::uint64_t step) {
 
 std::optional<ConstStateView> CpuSolver::view() const {
   const std::size_t count = model_->particle_count();
-  const auto balls = [&](const reference::Field<float>& f) {
+  const auto balls = [&](const physics::Field<float>& f) {
     return Strided<const float>{f.data(), model_->ball_count()};
   };
   return ConstStateView{strided<const float>(state_.x, count), strided<const float>(state_.v, count),
@@ -225,7 +227,7 @@ Status CpuSolver::take_constants(SharedModel model, std::uint64_t step) {
   dynamics_ = reference::Dynamics<float>(*model_);
   dynamics_.set_stop_flag(stop_flag());
   dynamics_.set_inputs(inputs());
-  balls_ = reference::Balls<float>(*model_);
+  balls_ = physics::Balls<float, collision::BallSearch>(*model_);
   balls_.set_inputs(inputs());
   for (Springs& springs : springs_) std::visit([&](auto& each) { each.set_constants(*model_); }, springs);
   lengths_->set_model(*model_);
@@ -239,15 +241,15 @@ Status CpuSolver::take_constants(SharedModel model, std::uint64_t step) {
 }
 
 /// Pinned particles stand from the beginning of a step on. Returns the velocities of those that did not.
-std::vector<std::pair<std::size_t, reference::Vector<float>>> CpuSolver::hold_pins() {
-  std::vector<std::pair<std::size_t, reference::Vector<float>>> before;
+std::vector<std::pair<std::size_t, physics::Vector<float>>> CpuSolver::hold_pins() {
+  std::vector<std::pair<std::size_t, physics::Vector<float>>> before;
   if (std::exchange(pins_held_, true)) return before;
   for (std::size_t i = 0; i < model_->particle_count(); ++i) {
     if (inverse_mass_[i] != 0.0f) continue;
-    const reference::Vector<float> v = vector_of(state_.v, i);
+    const physics::Vector<float> v = vector_of(state_.v, i);
     if ((v.array() == 0.0f).all()) continue;
     before.emplace_back(i, v);
-    parallel::set(state_.v, i, reference::Vector<float>::Zero());
+    parallel::set(state_.v, i, physics::Vector<float>::Zero());
   }
   return before;
 }
@@ -267,10 +269,10 @@ void CpuSolver::step() {
   if (model_->ball_count() > 0) {
     move_balls();
     sound = steps_->look_at(next_);
-    divergence_ = reference::find_divergence(*model_, next_balls_, step_ + 1);
+    divergence_ = physics::find_divergence(*model_, next_balls_, step_ + 1);
   }
   if (!sound) {
-    divergence_ = reference::find_divergence<float>(
+    divergence_ = physics::find_divergence<float>(
         *model_, [&](Eigen::Index i) { return vector_of(next_.x, static_cast<std::size_t>(i)); },
         [&](Eigen::Index i) { return vector_of(next_.v, static_cast<std::size_t>(i)); }, next_balls_,
         step_ + 1);
@@ -292,7 +294,10 @@ void CpuSolver::move_balls() {
   };
   const auto [x_0, v_0] = view(std::as_const(state_));
   const auto [x, v] = view(next_);
-  next_balls_ = balls_.step(step_, ball_phase_, {x_0, v_0, 1}, {x, v, 1});
+  const auto fly = [](Integrator integrator, const auto& forces, const physics::Phase<float>& s, double h) {
+    return reference::explicit_step(integrator, forces, s, h);
+  };
+  next_balls_ = balls_.step(step_, ball_phase_, {x_0, v_0, 1}, {x, v, 1}, fly);
 }
 
 }  // namespace

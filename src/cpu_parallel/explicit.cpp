@@ -46,7 +46,7 @@ bool meet(const Box& a, const Box& b, float margin) {
   return true;
 }
 
-reference::ParticleView<const float> view(const Particles& particles) {
+physics::ParticleView<const float> view(const Particles& particles) {
   const auto of = [](const VectorArray& a) { return std::array{a[0].data(), a[1].data(), a[2].data()}; };
   return {of(particles.x), of(particles.v), 1};
 }
@@ -86,7 +86,7 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
 
 void ExplicitSteps::constants_changed() {
   known_ = false;
-  bodies_ = bodies_touch(*model_) ? std::make_unique<reference::BodyContact<float>>(*model_) : nullptr;
+  bodies_ = bodies_touch(*model_) ? std::make_unique<collision::ContactSearch<float>>(*model_) : nullptr;
   if (bodies_) bodies_->set_side_by_side(look_side_by_side, touch_in_lanes);
 }
 
@@ -328,13 +328,13 @@ std::size_t ExplicitSteps::first_touched(const Task& task) const {
 }
 
 void ExplicitSteps::pull(const StageMove& stage, Range range, const Forces& forces) {
-  for (const reference::PullConstants<float>& pull : dynamics_.pulls()) {
+  for (const physics::PullConstants<float>& pull : dynamics_.pulls()) {
     const auto i = static_cast<std::size_t>(pull.particle);
     if (i - range.first >= range.count) continue;
     put_force(forces, i - range.first,
               force_at(forces, i - range.first) +
-                  reference::spring_force<float>(pull.spring, vector_of(stage.at->x, i),
-                                                 vector_of(stage.at->v, i), pull.anchor, Vector::Zero()));
+                  physics::spring_force<float>(pull.spring, vector_of(stage.at->x, i),
+                                               vector_of(stage.at->v, i), pull.anchor, Vector::Zero()));
   }
 }
 
@@ -402,12 +402,12 @@ void ExplicitSteps::add_contact(Task& task, const StageMove& stage, Range range,
       }
     });
   }
-  using Contact = reference::RestingContact<float>;
+  using Contact = physics::RestingContact<float>;
   const auto particle = [](const Contact& at) { return static_cast<std::size_t>(at.particle); };
   for (auto at = std::ranges::lower_bound(task.resting, range.first, {}, particle);
        at != task.resting.end() && particle(*at) < range.first + range.count; ++at) {
     const std::size_t n = particle(*at) - range.first;
-    put_force(forces, n, reference::with_reaction<float>(*at, force_at(forces, n)));
+    put_force(forces, n, physics::with_reaction<float>(*at, force_at(forces, n)));
   }
 }
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "collision/contact_search.h"
 #include "cpu_parallel/band_kernels.h"
 #include "cpu_parallel/lattice_kernels.h"
 #include "cpu_parallel/steps.h"
-#include "cpu_reference/body_contact.h"
 
 namespace aspic::parallel {
 
@@ -37,7 +37,7 @@ class ExplicitSteps final : public Steps {
     bool sound;   ///< at the end of the step
     /// Those that may be near terrain at the step's start: at its end terrain moves none but them.
     std::vector<Range> near;
-    std::vector<reference::RestingContact<float>> resting;  ///< of this step, in ascending particle index
+    std::vector<physics::RestingContact<float>> resting;  ///< of this step, in ascending particle index
     std::size_t kept;  ///< those before, in touched_, are of this task or of one before
   };
 
@@ -75,13 +75,13 @@ class ExplicitSteps final : public Steps {
   std::vector<Sweep> sweeps_;           // by thread
   std::vector<BandSweep> band_sweeps_;  // by thread
   Particles between_, sums_;
-  bool known_ = false;                                     ///< the boxes, and what is near
-  std::unique_ptr<reference::BodyContact<float>> bodies_;  ///< none where none can touch
-  bool touching_ = false;                                  ///< in the stage at hand
-  std::vector<Box> body_boxes_;                            ///< around all tasks of each body
+  bool known_ = false;                                       ///< the boxes, and what is near
+  std::unique_ptr<collision::ContactSearch<float>> bodies_;  ///< none where none can touch
+  bool touching_ = false;                                    ///< in the stage at hand
+  std::vector<Box> body_boxes_;                              ///< around all tasks of each body
   /// Of bodies_->particles(): forces with and without those of bodies [N], and their sums before the stage.
-  std::vector<reference::Vector<float>> touched_, kept_force_;
-  std::vector<std::array<reference::Vector<float>, 2>> kept_sums_;
+  std::vector<physics::Vector<float>> touched_, kept_force_;
+  std::vector<std::array<physics::Vector<float>, 2>> kept_sums_;
 };
 
 }  // namespace aspic::parallel

@@ -22,8 +22,8 @@ void set(BlockVectors& a, std::size_t n, const Vector& v) {
 }
 
 /// Adds a spring to the diagonal block of particle n.
-void add(std::array<BlockNumbers, 6>& blocks, std::size_t n, const reference::SpringJacobian<float>& H) {
-  reference::DiagonalBlock<float> block(0.0f);
+void add(std::array<BlockNumbers, 6>& blocks, std::size_t n, const physics::SpringJacobian<float>& H) {
+  physics::DiagonalBlock<float> block(0.0f);
   float* const numbers[6] = {&block.xx, &block.yy, &block.zz, &block.xy, &block.xz, &block.yz};
   for (std::size_t c = 0; c < 6; ++c) *numbers[c] = blocks[c].of[n];
   block.add(H);
@@ -87,7 +87,7 @@ void ImplicitEuler::for_each_block(const Task& task) {
 }
 
 float ImplicitEuler::sum_of_blocks() const {
-  return reference::tree_sum(sums_);
+  return physics::tree_sum(sums_);
 }
 
 Linearisation ImplicitEuler::at(const VectorArray& v, float h) const {
@@ -133,13 +133,13 @@ void ImplicitEuler::forces(const Block& block, const Linearisation& at, BlockFor
                  [&](const auto& springs) { linearise(springs, jacobians_[segment.body], at, segment, to); });
   }
   for (std::size_t k = 0; k < dynamics_.pulls().size(); ++k) {
-    const reference::PullConstants<float>& pull = dynamics_.pulls()[k];
+    const physics::PullConstants<float>& pull = dynamics_.pulls()[k];
     const auto i = static_cast<std::size_t>(pull.particle);
     const std::size_t n = i - block.range.first;
     if (n >= block.range.count) continue;
     const Vector v = parallel::vector_of(*at.v, i);
     const Vector e = (parallel::vector_of(*at.x, i) - pull.anchor) + at.h * v;
-    const auto [f, H] = reference::linearised<float>(pull.spring, at.h, e, v);
+    const auto [f, H] = physics::linearised<float>(pull.spring, at.h, e, v);
     set(out.f, n, vector_of(out.f, n) + f);
     add(out.diagonal, n, H);
     pull_jacobian_[k] = H;
@@ -207,7 +207,7 @@ reference::Trial<float> ImplicitEuler::evaluate() {
   });
   const auto holds = [](const Block& block) { return !block.held.empty(); };
   prescribes_ = std::ranges::any_of(blocks_, &Block::prescribes);
-  return {reference::tree_max(largest_), sum_of_blocks(), reference::tree_sum(falling_),
+  return {physics::tree_max(largest_), sum_of_blocks(), physics::tree_sum(falling_),
           pushes || std::ranges::any_of(blocks_, holds)};
 }
 
@@ -241,15 +241,15 @@ ResidualShare ImplicitEuler::evaluate_block(Block& block) {
 /// The ground's reaction on those particles of a block that may meet it.
 void ImplicitEuler::meet_ground(Block& block, const BlockVectors& free, const BlockNumbers& meets,
                                 BlockVectors& R, std::array<BlockNumbers, 6>& diagonal) {
-  std::vector<reference::Gap<float>> gaps;
+  std::vector<physics::Gap<float>> gaps;
   for (std::size_t n = 0; n < block.range.count; ++n) {
     if (meets.of[n] == 0.0f) continue;
     const std::size_t i = block.range.first + n;
     gaps.clear();
-    for (const reference::Ground<float>& ground : dynamics_.grounds())
-      gaps.push_back(reference::gap<float>(ground, ground.start, parallel::vector_of(start_->x, i)));
+    for (const physics::Ground<float>& ground : dynamics_.grounds())
+      gaps.push_back(physics::gap<float>(ground, ground.start, parallel::vector_of(start_->x, i)));
     const auto reaction = ahead_.react_to(gaps.data(), mass_[i], vector_of(free, n));
-    if (reaction.freedom == reference::Freedom::all) continue;
+    if (reaction.freedom == physics::Freedom::all) continue;
     const Vector residual = parallel::vector_of(end_->v, i) - reaction.v;
     const Vector prescribed = -reaction.held_part(residual);
     set(R, n, residual);
@@ -360,7 +360,7 @@ bool ImplicitEuler::look_at(const Particles& start) {
 /// What the ground prescribes, the positions, and the terrain's response.
 bool ImplicitEuler::end_block(const Block& block) {
   const Range& range = block.range;
-  std::array<const reference::GroundReaction<float>*, block_size> reactions{};
+  std::array<const physics::GroundReaction<float>*, block_size> reactions{};
   for (const Held& held : block.held) {  // the ground gives way by no tolerance
     parallel::set(end_->v, held.particle, parallel::vector_of(end_->v, held.particle) + held.prescribed);
     reactions[held.particle - range.first] = &held.reaction;
@@ -374,9 +374,9 @@ bool ImplicitEuler::end_block(const Block& block) {
       Vector x = parallel::vector_of(end_->x, i), v = parallel::vector_of(end_->v, i);
       if (!ahead_.acts()) dynamics_.respond(static_cast<Eigen::Index>(i), x_0, v_0, x, v);
       for (std::size_t t = 0; ahead_.acts() && t < dynamics_.grounds().size(); ++t)
-        reference::respond_solved<float>(dynamics_.grounds()[t], dynamics_.contact(), dynamics_.gravity(),
-                                         mass_[i], reactions[n] != nullptr && reactions[n]->holds(t), x_0,
-                                         v_0, x, v);
+        physics::respond_solved<float>(dynamics_.grounds()[t], dynamics_.contact(), dynamics_.gravity(),
+                                       mass_[i], reactions[n] != nullptr && reactions[n]->holds(t), x_0, v_0,
+                                       x, v);
       parallel::set(end_->x, i, x);
       parallel::set(end_->v, i, v);
     }

@@ -37,11 +37,11 @@ class ImplicitEuler final : public Steps {
   void turn(float beta);
 
  private:
-  using Vector = reference::Vector<float>;
+  using Vector = physics::Vector<float>;
   /// A particle that the ground holds at the trial.
   struct Held {
     std::size_t particle;
-    reference::GroundReaction<float> reaction;
+    physics::GroundReaction<float> reaction;
     Vector prescribed;  ///< the part of δ that the ground leaves no choice in [m/s]
   };
   /// A block's forces and diagonal blocks at the trial.
@@ -81,7 +81,7 @@ class ImplicitEuler final : public Steps {
   MovingLengths& lengths_;
   const FloatArray &mass_, &inverse_mass_;
   Workers& workers_;
-  reference::GroundAhead<float> ahead_;
+  physics::GroundAhead<float> ahead_;
   reference::SolveLimits<float> limits_;
   float h_;
   std::vector<Jacobians> jacobians_;  // by body
@@ -94,8 +94,8 @@ class ImplicitEuler final : public Steps {
   std::unique_ptr<ImplicitTouch> bodies_;  // none where none can touch
   bool touching_ = false;                  // whether bodies are near each other in this step
   const Particles* start_ = nullptr;
-  Particles* end_ = nullptr;                                     // its velocities are the trial
-  std::vector<reference::SpringJacobian<float>> pull_jacobian_;  // of every pull
+  Particles* end_ = nullptr;                                   // its velocities are the trial
+  std::vector<physics::SpringJacobian<float>> pull_jacobian_;  // of every pull
 };
 
 }  // namespace aspic::parallel

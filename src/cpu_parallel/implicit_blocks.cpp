@@ -42,9 +42,9 @@ void ImplicitEuler::cut_into_blocks() {
 /// meet some however slowly it moves.
 float ImplicitEuler::clearance(const Vector& x) const {
   float least = std::numeric_limits<float>::infinity();
-  for (const reference::Ground<float>& ground : dynamics_.grounds()) {
-    float d = reference::distance<float>(ground, ground.start, x);
-    if (ground.end.moves) d -= 1.001f * (h_ * reference::norm3<float>(ground.end.velocity));
+  for (const physics::Ground<float>& ground : dynamics_.grounds()) {
+    float d = physics::distance<float>(ground, ground.start, x);
+    if (ground.end.moves) d -= 1.001f * (h_ * physics::norm3<float>(ground.end.velocity));
     if (!(d >= least)) least = d;
   }
   return least > 0.0f ? least * least : -1.0f;

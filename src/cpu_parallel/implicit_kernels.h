@@ -80,7 +80,7 @@ void multiply(const Lattice& lattice, const Jacobians& jacobians, const Linearis
 void multiply(const SpringLists& lists, const Jacobians& jacobians, const Linearisation& at,
               const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out);
 
-/// Particles of one reduction at most (cpu_reference/reductions.h).
+/// Particles of one reduction at most (physics/reductions.h).
 inline constexpr std::size_t block_size = 256;
 /// A number for each particle of a block.
 struct BlockNumbers {

@@ -8,7 +8,7 @@
 namespace aspic::parallel {
 namespace {
 
-using reference::ParticleView;
+using physics::ParticleView;
 
 std::array<const float*, 3> of(const VectorArray& a) {
   return {a[0].data(), a[1].data(), a[2].data()};
@@ -31,7 +31,7 @@ ImplicitTouch::ImplicitTouch(const Model& model, const FloatArray& inverse_mass,
       product_(vector_array(count_, slice)),
       end_(vector_array(count_, slice)) {
   for (FloatArray& each : blocks_) each = FloatArray(count_, slice);
-  contact_.set_side_by_side(look_side_by_side, touch_in_lanes);
+  contact_.search().set_side_by_side(look_side_by_side, touch_in_lanes);
 }
 
 /// Nothing that the last contacts added is left.
@@ -76,7 +76,7 @@ bool ImplicitTouch::react(const VectorArray& trial, const VectorArray* held) {
     const std::uint32_t i = filled_[n];
     const Vector before = held != nullptr ? at(*held, i) : Vector(Vector::Zero());
     put(force_, i, before + contact_.force(n));
-    const reference::DiagonalBlock<float>& b = contact_.block(n);
+    const physics::DiagonalBlock<float>& b = contact_.block(n);
     const float numbers[6] = {b.xx, b.yy, b.zz, b.xy, b.xz, b.yz};
     for (std::size_t c = 0; c < 6; ++c) blocks_[c][i] = numbers[c];
   }

@@ -5,15 +5,16 @@
 #include <cstdint>
 #include <functional>
 
+#include "collision/contact_search.h"
 #include "cpu_parallel/particles.h"
 #include "cpu_parallel/workers.h"
-#include "cpu_reference/implicit_touch.h"
+#include "physics/contact/implicit.h"
 
 namespace aspic::parallel {
 
 class ImplicitTouch {
  public:
-  using Vector = reference::Vector<float>;
+  using Vector = physics::Vector<float>;
   using Force = std::function<Vector(std::uint32_t)>;  ///< gravity, springs and pulls on a particle [N]
 
   /// Of a model whose bodies_touch(). The last two must outlive it.
@@ -41,7 +42,7 @@ class ImplicitTouch {
   bool begin(const Search& search);
   void clear();
 
-  reference::TouchAhead<float> contact_;
+  physics::TouchAhead<float, collision::ContactSearch<float>> contact_;
   const FloatArray& inverse_mass_;
   Workers& workers_;
   std::size_t count_;

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "cpu_parallel/contact_pieces.h"
-#include "cpu_reference/divergence.h"
 #include "model/inputs.h"
 #include "model/touch_surface.h"
+#include "physics/divergence.h"
 
 namespace aspic::parallel {
 namespace {
@@ -294,12 +294,12 @@ void Stack::find_resting() {
 void Stack::add_pulls(const Particles& where) {
   const Forces forces = forces_of(force_);
   for_running([&](const Lane& lane, std::size_t index) {
-    for (const reference::PullConstants<float>& pull : lane.dynamics.pulls()) {
+    for (const physics::PullConstants<float>& pull : lane.dynamics.pulls()) {
       const std::size_t n = at(static_cast<std::size_t>(pull.particle), index);
       put(forces, n,
-          vector_at(forces, n) + reference::spring_force<float>(pull.spring, vector_of(where.x, n),
-                                                                vector_of(where.v, n), pull.anchor,
-                                                                Vector::Zero()));
+          vector_at(forces, n) + physics::spring_force<float>(pull.spring, vector_of(where.x, n),
+                                                              vector_of(where.v, n), pull.anchor,
+                                                              Vector::Zero()));
     }
   });
 }
@@ -320,9 +320,9 @@ void Stack::add_contact(const Particles& where) {
     return;
   }
   for_running([&](const Lane& lane, std::size_t index) {
-    for (const reference::RestingContact<float>& rests : lane.resting) {
+    for (const physics::RestingContact<float>& rests : lane.resting) {
       const std::size_t n = at(static_cast<std::size_t>(rests.particle), index);
-      put(forces, n, reference::with_reaction<float>(rests, vector_at(forces, n)));
+      put(forces, n, physics::with_reaction<float>(rests, vector_at(forces, n)));
     }
   });
 }
@@ -338,7 +338,7 @@ bool Stack::respond() {
                                      vector_of(state_.v, n), x, v);
       parallel::set(next_.x, n, x);
       parallel::set(next_.v, n, v);
-      sound = sound && x.allFinite() && reference::dot3<float>(v, v) <= speed_limit;
+      sound = sound && x.allFinite() && physics::dot3<float>(v, v) <= speed_limit;
     });
   }
   return sound;
@@ -349,7 +349,7 @@ void Stack::settle(bool sound) {
   std::uint32_t failed = 0;
   for_running([&](Lane& lane, std::size_t index) {
     if (!sound) {
-      lane.divergence = reference::find_divergence<float>(
+      lane.divergence = physics::find_divergence<float>(
           *lane.model,
           [&](Eigen::Index i) { return vector_of(next_.x, at(static_cast<std::size_t>(i), index)); },
           [&](Eigen::Index i) { return vector_of(next_.v, at(static_cast<std::size_t>(i), index)); }, {},

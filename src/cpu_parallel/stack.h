@@ -53,9 +53,9 @@ class Stack {
     std::uint64_t step = 0;
     std::optional<Divergence> divergence;
     std::vector<float> kept;  ///< the last good state after a divergence: x and v, component by component
-    std::vector<reference::RestingContact<float>> resting;  ///< of this step, in ascending particle index
-    bool pins_held = false;                                 ///< no pinned particle moves
-    std::optional<RestLengths> lengths;                     ///< of actuated springs; none without them
+    std::vector<physics::RestingContact<float>> resting;  ///< of this step, in ascending particle index
+    bool pins_held = false;                               ///< no pinned particle moves
+    std::optional<RestLengths> lengths;                   ///< of actuated springs; none without them
     explicit Lane(SharedModel of) : model(std::move(of)), dynamics(*model) {}
   };
   template <class F>

@@ -57,14 +57,14 @@ HWY_INLINE Nearest nearest_place(const Vector& P, const Vector& A, const Vector&
   return at;
 }
 
-/// A triangle as a point sees it: reference::Sight.
+/// A triangle as a point sees it: physics::Sight.
 struct Sight {
   Vector N, e;
   Nearest at;
   Float L, z;
 };
 
-/// reference::sight_of(). Returns g, the area normal.
+/// physics::sight_of(). Returns g, the area normal.
 HWY_INLINE Vector look(const Vector& P, const Vector& A, const Vector& B, const Vector& C, Sight& seen) {
   const Vector g = cross3(B - A, C - A);
   seen.N = hn::Div(hn::Set(tag, 1.0f), hn::Sqrt(dot3(g, g))) * g;
@@ -85,9 +85,9 @@ HWY_INLINE void store(const Vector& v, float* const* to, std::size_t n) {
   hn::StoreU(v.z, tag, to[2] + n);
 }
 
-using reference::Row;
-using reference::TouchBatch;
-using reference::TouchTables;
+using collision::Row;
+using collision::TouchBatch;
+using collision::TouchTables;
 
 /// Rows of so many lanes as vectors: lane n of column c is c of row number index[n].
 struct Columns {
@@ -173,12 +173,12 @@ HWY_INLINE Mask both(Mask a, Mask b) {
 
 /// The same constant of each lane's pair.
 struct Pairs {
-  const reference::TouchConstants<float>* all;
+  const physics::TouchConstants<float>* all;
   const std::int32_t* index;
   bool same;
 
   template <class Value>
-  HWY_INLINE Float of(Value reference::TouchConstants<float>::*which) const {
+  HWY_INLINE Float of(Value physics::TouchConstants<float>::*which) const {
     if (same) return hn::Set(tag, static_cast<float>(all[*index].*which));
     alignas(64) float values[lanes];
     for (std::size_t n = 0; n < lanes; ++n) values[n] = static_cast<float>(all[index[n]].*which);
@@ -202,12 +202,12 @@ struct Carried {
 
 /// What a point sees of the triangles of its short list, one of each.
 struct Listed {
-  Sight seen[reference::most_listed];
-  Index triangle[reference::most_listed], side[reference::most_listed];
-  Mask matters[reference::most_listed];
+  Sight seen[collision::most_listed];
+  Index triangle[collision::most_listed], side[collision::most_listed];
+  Mask matters[collision::most_listed];
 };
 
-/// That which counts as the nearest: reference::nearest_of().
+/// That which counts as the nearest: physics::nearest_of().
 struct Best {
   Sight seen;
   Index triangle, side;
@@ -255,7 +255,7 @@ struct Gap {
   Mask touches;
 };
 
-/// reference::closed_gap() and open_gap()
+/// physics::closed_gap() and open_gap()
 HWY_INLINE Gap gap_of(const Sight& seen, Mask closed, Float sight, Float depth) {
   const Float zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
   const Mask behind = hn::Lt(seen.z, zero), inside = both(closed, behind), outside = hn::Lt(seen.L, sight);
@@ -283,7 +283,7 @@ HWY_INLINE Mask second_side(const Listed& all, std::size_t count, const Best& fi
 }
 
 void Touch(const TouchTables<float>& from, TouchBatch<float>& batch) {
-  using Constants = reference::TouchConstants<float>;
+  using Constants = physics::TouchConstants<float>;
   const Float zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
   for (std::size_t n = 0; n < batch.count; n += lanes) {
     const auto numbers = [n](const auto& lane) { return hn::LoadU(index_tag, lane.data() + n); };
@@ -315,7 +315,7 @@ void Touch(const TouchTables<float>& from, TouchBatch<float>& batch) {
     }
     Listed all;
     // All that is read for the same lanes comes before what is computed of it: reads wait for each other.
-    Faces at[reference::most_listed];
+    Faces at[collision::most_listed];
     for (std::size_t j = 0; j < count; ++j) {
       alignas(64) std::int32_t t[lanes];
       for (std::size_t lane = 0; lane < lanes; ++lane)
@@ -390,7 +390,7 @@ void look_in_lanes(const SightLanes& batch) {
   HWY_DYNAMIC_DISPATCH(Look)(batch);
 }
 
-void touch_in_lanes(const reference::TouchTables<float>& from, reference::TouchBatch<float>& batch) {
+void touch_in_lanes(const collision::TouchTables<float>& from, collision::TouchBatch<float>& batch) {
   HWY_DYNAMIC_DISPATCH(Touch)(from, batch);
 }
 

@@ -1,14 +1,14 @@
 #pragma once
-// What points see of triangles, in the lanes of vectors: the bits of reference::look_one_by_one().
+// What points see of triangles, in the lanes of vectors: the bits of collision::look_one_by_one().
 #include <algorithm>
 
+#include "collision/touch_sights.h"
 #include "cpu_parallel/touch_lanes.h"
-#include "cpu_reference/touch_sights.h"
 
 namespace aspic::parallel {
 
-inline void look_side_by_side(const reference::FacesInSpace<float>& faces,
-                              reference::SightBatch<float>& batch) {
+inline void look_side_by_side(const collision::FacesInSpace<float>& faces,
+                              collision::SightBatch<float>& batch) {
   // Lanes behind the last look at a triangle that is there.
   for (std::size_t n = batch.count; n < (batch.count + 15) / 16 * 16; ++n) batch.triangle[n] = 0;
   const auto three = [](auto& of) { return std::array{of[0].data(), of[1].data(), of[2].data()}; };

@@ -3,14 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cpu_reference/touch_batch.h"
+#include "collision/touch_batch.h"
 
 namespace aspic::parallel {
 
-/// reference::SightBatch
+/// collision::SightBatch
 struct SightLanes {
-  const reference::Row<std::uint32_t>* faces;
-  const reference::Row<float>* x;
+  const collision::Row<std::uint32_t>* faces;
+  const collision::Row<float>* x;
   std::size_t count;
   float P[3];
   const std::int32_t* triangle;
@@ -21,7 +21,7 @@ struct SightLanes {
 /// Reads and writes up to fifteen lanes behind the last.
 void look_in_lanes(const SightLanes& batch);
 
-/// What points touch first, in the lanes of vectors: the bits of reference::BodyContact.
-void touch_in_lanes(const reference::TouchTables<float>& from, reference::TouchBatch<float>& batch);
+/// What points touch first, in the lanes of vectors: the bits of collision::ContactSearch.
+void touch_in_lanes(const collision::TouchTables<float>& from, collision::TouchBatch<float>& batch);
 
 }  // namespace aspic::parallel

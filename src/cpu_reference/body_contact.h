@@ -1,276 +1,60 @@
 #pragma once
-// Contact between bodies, and of a body with itself, in the force evaluations of a step (docs/contact.md).
-// The particles may lie anywhere: the cpu backend runs this on its own arrays.
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <cstddef>
+// Contact between bodies, and of a body with itself, by its definition (docs/contact.md): every point looks
+// at every candidate in every force evaluation, and nothing is kept from one step to the next.
 #include <cstdint>
-#include <optional>
-#include <span>
-#include <utility>
 #include <vector>
 
-#include "cpu_reference/ball_particles.h"
-#include "cpu_reference/near_triangles.h"
-#include "cpu_reference/number_set.h"
-#include "cpu_reference/pieces.h"
-#include "cpu_reference/touch_batch.h"
-#include "cpu_reference/touch_geometry.h"
-#include "cpu_reference/touch_normals.h"
-#include "cpu_reference/touch_rule.h"
-#include "cpu_reference/touch_shortlists.h"
-#include "cpu_reference/touch_sights.h"
-#include "cpu_reference/touch_ways.h"
 #include "model/touch_surface.h"
+#include "physics/contact/candidates.h"
+#include "physics/contact/forces.h"
+#include "physics/contact/overlap.h"
+#include "physics/contact/selection.h"
 
 namespace aspic::reference {
 
-/// Constants of every pair of bodies, held once for bodies that are alike.
-template <class T>
-class TouchTable {
- public:
-  TouchTable(const ContactSettings& contact, const std::vector<TouchBody>& bodies, double ahead_step);
-  /// Number of the pair.
-  std::uint32_t of(std::uint32_t point_of, std::uint32_t face_of) const {
-    return point_of == face_of ? kind_[point_of] : (1 + kind_[point_of]) * kinds_ + kind_[face_of];
-  }
-  const TouchConstants<T>& operator[](std::uint32_t pair) const { return pairs_[pair]; }
-  const std::vector<TouchConstants<T>>& pairs() const { return pairs_; }
-  const TouchConstants<T>& at(std::uint32_t point_of, std::uint32_t face_of) const {
-    return pairs_[of(point_of, face_of)];
-  }
-  /// Whether any pair has friction.
-  bool rubs() const {
-    return std::ranges::any_of(pairs_, [](const TouchConstants<T>& pair) { return pair.mu > T(0); });
-  }
-
- private:
-  std::vector<std::uint32_t> kind_;       // by body
-  std::uint32_t kinds_ = 0;               // so many
-  std::vector<TouchConstants<T>> pairs_;  // by kind, of a body with itself; then by both kinds
-};
+using namespace physics;
 
 template <class T>
-class BodyContact {
+class BodyContact : public ContactForces<T> {
  public:
-  using Particles = ParticleView<const T>;
+  using typename ContactForces<T>::Particles;
 
-  /// A point that touches a body in the initial state, where pushes begin at its distance there and come back
-  /// to ρ with time.
-  struct Eased {
-    std::uint32_t point, body;
-    T d;  ///< [m]
-  };
-
-  /// Of a model whose bodies_touch(). Bodies that overlap in its initial state are eased apart. With an
-  /// `ahead_step` h [s] pushes are those at the end of a step (docs/contact.md, "Implicit Euler"): contacts
-  /// are found from touch_ahead spacings on, and k·h takes the place of the damper.
+  /// Of a model whose bodies_touch(), which must outlive it. With an `ahead_step` h [s] normal forces are
+  /// those at the end of a step (docs/contact.md, "Implicit Euler").
   explicit BodyContact(const Model& model, double ahead_step = 0.0);
-  BodyContact(const BodyContact&) = delete;
-  BodyContact& operator=(const BodyContact&) = delete;
 
-  /// A step from the state of this number begins here, where the particles stay until it ends. Returns
-  /// whether anything may touch in it.
-  bool begin_step(std::uint64_t step, const Particles& start) { return begin_step(step, start, one_by_one); }
-  /// The same on many threads: run(count, task) calls task(n) for n below count, in any order.
-  template <class Run>
-  bool begin_step(std::uint64_t step, const Particles& start, const Run& run) {
-    lay_out(start, run);
-    ways_.measure(near_, start, x_, run);
-    return begin_measured(step, start);
-  }
-
-  /// The candidates of this step: calls take(point, triangle), ascending by point, body and triangle.
-  template <class Take>
-  void for_candidates(const Take& take) const {
-    for (const Encounter& near : near_.encounters())
-      for (const std::uint32_t t : near_.triangles(near))
-        if (is_candidate(near, table_.at(body_of(near.point), near.body), t)) take(near.point, t);
-  }
-
-  /// Finds the contacts at a place of the step, for forces there and those below. Returns whether there is
-  /// one.
-  bool find(const Particles& at) { return find(at, one_by_one); }
-  /// The same on many threads, as begin_step().
-  template <class Run>
-  bool find(const Particles& at, const Run& run) {
-    if (!std::exchange(laid_out_, false) || at.x != start_->x || at.v != start_->v) lay_out(at, run);
-    short_.follow(x_, run);
-    normals_.make(x_, run);
-    const std::size_t pieces = pieces_of(near_.encounters().size());
-    pieces_.resize(std::max(pieces_.size(), pieces));
-    touches_.clear();
-    in_turn_ = 0;
-    run(pieces, [&](std::size_t n) { find_in(n); });
-    gather();
-    return !touches_.empty();
-  }
-  /// How what is seen is computed, to the same bits as look_one_by_one(); and what points touch whose short
-  /// lists hold, which without the second are looked at one by one.
-  using Look = void (*)(const FacesInSpace<T>&, SightBatch<T>&);
-  void set_side_by_side(Look look, TouchSideBySide<T> touch) {
-    look_ = look;
-    side_by_side_ = touch;
-  }
-  /// With an ahead_step: whether find() looks where the step may end, not where it begins.
+  /// The step from the state of this number begins: finds the candidates. Returns whether there are any.
+  bool begin_step(std::uint64_t step, const Particles& start);
+  /// Finds the contacts of a force evaluation. Returns whether there are any.
+  bool find(const Particles& at);
+  /// With an ahead_step: whether find() sees the end of a step instead of its start.
   void set_at_end(bool on) { at_end_ = on; }
-  /// Those of find(), ascending by point, body of the triangle, and first contact before second sides.
-  std::span<const Touch<T>> touches() const { return touches_; }
-  /// The particles that contacts of this step may name, ascending.
-  std::span<const std::uint32_t> particles() const { return particles_; }
 
-  /// Adds pushes and friction to the forces [N] of particles(), which gravity, springs and pulls have made.
-  /// `start`: of the step; inverse_mass(particle) [1/kg].
-  template <class InverseMass, class Run>
-  void act(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
-           const Run& run) {
-    push(start, inverse_mass, f, run);
-    if (rubs_) rub(f);
-  }
-  template <class InverseMass>
-  void act(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f) {
-    act(start, inverse_mass, f, one_by_one);
-  }
-
-  /// The same with pushes alone; friction is found, but not added.
-  template <class InverseMass, class Run>
-  void push(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
-            const Run& run) {
-    push(f);
-    if (!rubs_) return;
-    w_.resize(particles_.size());
-    for (std::size_t n = 0; n < w_.size(); ++n) w_[n] = inverse_mass(particles_[n]);
-    begin_friction(start, f);
-    run_pieces(touches_.size(), task_size, run, [&](std::size_t n) { find_friction(touches_[n]); });
-  }
-  /// Bodies whose boxes are farther apart than this do not touch [m].
-  double most_margin() const { return near_.most_margin(); }
-
-  /// Ascending by point and body.
-  const std::vector<Eased>& eased() const { return eased_; }
-  /// Σ ½k·max(0, ρ − d)² of the contacts of find() [J].
-  T energy() const;
-  std::uint64_t bytes() const;
+  const std::vector<InitialOverlap<T>>& initial_overlaps() const { return overlaps_.all(); }
 
  private:
-  void ease_apart(const Model& model, bool ahead);
-  bool is_candidate(const Encounter& near, const TouchConstants<T>& pair, std::uint32_t triangle) const;
-  /// A point and a body, in the middle of a find().
-  struct Looker {
-    std::size_t n;  // of the encounter
-    const Encounter& near;
-    const TouchConstants<T>& pair;
-    Vector<T> P;
+  /// The candidates of a point on one body.
+  struct Group {
+    std::uint32_t point, body, first, count;  // in candidates_
   };
-  using Order = std::vector<std::pair<T, std::uint32_t>>;  // numbers, by something [m]
-  /// What one task of find() works with.
-  struct Piece {
-    std::vector<Sight<T>> sights, around;
-    Order by_distance, by_way;             // those around
-    std::vector<Touch<T>>* out = nullptr;  // contacts go there:
-    std::vector<Touch<T>> touches;         // until all before are with touches_, here
-    std::vector<std::size_t> listed;       // encounters whose short lists are new
-  };
-  static constexpr std::size_t piece_size = batch_room;
-  static std::size_t pieces_of(std::size_t count) { return (count + piece_size - 1) / piece_size; }
-  /// Particles, and contacts, of a task.
-  static constexpr std::size_t task_size = 512;
-  bool begin_measured(std::uint64_t step, const Particles& start);
-  void list_used(const Particles& at);
-  void name(std::span<const std::uint32_t> points);
-  /// Whether contacts may name this point while the lists are those that there are.
-  bool named(std::uint32_t point) const {
-    return place_of_[point] < named_.added().size() && named_.added()[place_of_[point]] == point;
-  }
-  void want(std::size_t encounter);
-  void find_in(std::size_t piece);
-  /// Places and velocities of all that may touch, one after the other.
-  template <class Run>
-  void lay_out(const Particles& at, const Run& run) {
-    run_pieces(met_.size(), task_size, run, [&](std::size_t n) {
-      const auto& [particle, point] = met_[n];
-      x_[point] = row_of<T>(at.position(particle));
-      v_[point] = row_of<T>(at.velocity(particle));
-    });
-  }
-  void ask(std::size_t first, std::size_t end, TouchBatch<T>& batch) const;
-  TouchTables<T> tables() const;
-  void gather();
-  FacesInSpace<T> faces() const { return {surfaces_.faces, x_}; }
-  T pad(const TouchConstants<T>& pair) const;
-  T enough(std::optional<T> least, const TouchConstants<T>& pair) const;
-  Looker looker(std::size_t encounter) const;
-  Vector<T> normal_of(const Looker& p) const;
-  bool stays_apart(const Looker& p);
-  bool look_at_few(const Looker& p, std::vector<Sight<T>>& sights) const;
-  void look_at_all(const Looker& p, Piece& piece);
-  double list_first(const Looker& p, const Order& order, T most, T beyond,
-                    const std::vector<Sight<T>>& around);
-  void touch(const Looker& p, Piece& piece) const;
-  void add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap, Piece& piece) const;
-  void add(std::size_t encounter, const TouchBatch<T>& batch, std::size_t place, Piece& piece) const;
-  Touch<T>& begin_touch(std::size_t encounter, std::uint32_t triangle, T b, T c, Piece& piece) const;
-  void push(std::vector<Vector<T>>& f);
-  void begin_friction(const Particles& start, const std::vector<Vector<T>>& f);
-  void find_friction(Touch<T>& touch) const;
-  void rub(std::vector<Vector<T>>& f) const;
-  std::uint32_t body_of(std::uint32_t point) const;
-  std::uint32_t body_of_triangle(std::uint32_t triangle) const;
-  T back(const Eased& eased, const TouchConstants<T>& pair) const;
-  const Eased* easing(const Encounter& encounter, const TouchConstants<T>& pair) const;
-  T reach_of(const Encounter& encounter, const TouchConstants<T>& pair) const;
-  T depth_of(const Encounter& encounter, const TouchConstants<T>& pair) const;
+  template <class U>
+  friend class BodyContact;
+  BodyContact(const Model& model, double ahead_step, bool initial);
+  Vector<T> normal_of(const TouchPoint& point, const Particles& at) const;
+  Face<T> face_at(std::uint32_t triangle, const Particles& at) const;
+  void add(const Group& group, const Sight<T>& seen, const TouchGap<T>& gap, const Particles& at);
 
+  const Model& model_;
   TouchSurfaces surfaces_;
   TouchTable<T> table_;
-  NearTriangles near_;
-  T h_;
-  bool rubs_;  // any pair has friction
-  double timestep_;
+  InitialOverlaps<T> overlaps_;
   bool at_end_ = false;
-  Look look_ = look_one_by_one<T>;
-  TouchSideBySide<T> side_by_side_ = nullptr;
-  std::vector<Eased> eased_;  // ascending by point and body
-  bool easing_ = false;       // some are in this step
-  bool initial_ = false;      // finds what is to be eased
-  T time_ = T(0);             // since the initial state [s]
-  std::optional<Particles> start_;
-  bool laid_out_ = false;  // they are laid out as they are at the start
-  TouchWays<T> ways_;
-  TouchNormals<T> normals_;
-  TouchShortlists<T> short_;
-  std::vector<Row<T>> x_, v_;  // by point, of those that meetings name
-  /// Of an encounter, what a batch asks with.
-  struct Asked {
-    std::array<std::uint32_t, 2> own;
-    std::array<T, 2> weight;
-    std::uint32_t pair;
-  };
-  std::vector<Asked> asked_;              // by encounter
-  std::array<std::vector<T>, 2> weight_;  // of carriers, by point
-  std::vector<std::uint32_t> own_;        // by encounter: the point's body
-  struct SurfaceParticle {
-    std::uint32_t particle, point;
-  };
-  std::vector<SurfaceParticle> surface_;  // ascending by both
-  std::vector<SurfaceParticle> met_;      // those that meetings name, ascending
-  NumberSet named_;                       // points that contacts may name, ascending,
-  std::vector<std::uint32_t> particles_;  // and their particles, ascending, too
-  std::vector<std::uint32_t> place_of_;   // where it is among these, by point
-  std::vector<Vec3> places_;              // by point
-  std::vector<Piece> pieces_;
-  std::atomic<std::size_t> in_turn_ = 0;  // all pieces before this one are with touches_
-  std::vector<Touch<T>> touches_;
-  // By place among the particles: their inverse masses, what pushes share them out by, times the former for
-  // friction, and the velocities that it meets.
-  std::vector<T> w_, share_;
-  std::vector<Vector<T>> v1_;
+  bool initial_ = false;  // finds initial overlaps
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> candidates_;  // triangles
 };
 
 // Compiled once, in body_contact.cpp.
-extern template class TouchTable<float>;
-extern template class TouchTable<double>;
 extern template class BodyContact<float>;
 extern template class BodyContact<double>;
 

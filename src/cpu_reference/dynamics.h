@@ -6,43 +6,16 @@
 #include <vector>
 
 #include "aspic/inputs.h"
-#include "cpu_reference/coulomb.h"
-#include "cpu_reference/spring.h"
 #include "model/inputs.h"
 #include "model/model.h"
 #include "model/springs.h"
+#include "physics/pulls/law.h"
+#include "physics/springs/law.h"
+#include "physics/terrain/coulomb.h"
 
 namespace aspic::reference {
 
-/// A pull in the solver's precision: a spring of rest length 0 whose other end rests at the anchor.
-template <class T>
-struct PullConstants {
-  Eigen::Index particle;
-  Vector<T> anchor;  ///< [m]
-  SpringConstants<T> spring;
-
-  explicit PullConstants(const Pull& pull)
-      : particle(static_cast<Eigen::Index>(pull.particle)),
-        anchor(rounded<T>(pull.anchor)),
-        spring(SpringClass{SpringType::structural, pull.stiffness, pull.damping, 0.0, false}) {}
-};
-
-/// A particle on the ground at the start of a step.
-template <class T>
-struct RestingContact {
-  Eigen::Index particle;
-  T friction;     ///< μ of the ground
-  T least_speed;  ///< c: normal speed it may not fall below [m/s]
-  T hw;           ///< h·w [s/kg]
-  Vector<T> n;    ///< the ground's normal at the start of the step
-  Vector<T> v0;   ///< the velocity there, relative to the ground's at the step's end [m/s]
-};
-
-/// The force f [N] on the particle with the ground's reaction.
-template <class T>
-Vector<T> with_reaction(const RestingContact<T>& at, const Vector<T>& f) {
-  return with_reaction<T>(at.friction, at.n, at.least_speed, at.hw, at.v0, f);
-}
+using namespace physics;
 
 template <class T>
 class Dynamics {

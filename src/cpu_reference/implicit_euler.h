@@ -12,39 +12,16 @@
 #include <memory>
 #include <utility>
 
-#include "cpu_reference/diagonal_block.h"
-#include "cpu_reference/implicit_ground.h"
+#include "cpu_reference/body_contact.h"
 #include "cpu_reference/implicit_newton.h"
-#include "cpu_reference/implicit_touch.h"
 #include "cpu_reference/method.h"
-#include "cpu_reference/reductions.h"
 #include "model/springs.h"
+#include "physics/contact/implicit.h"
+#include "physics/diagonal_block.h"
+#include "physics/reductions.h"
+#include "physics/terrain/implicit.h"
 
 namespace aspic::reference {
-
-/// Force on end a and Jacobian of a spring whose vector at the step's end is e and whose relative velocity is
-/// v.
-template <class T>
-std::pair<Vector<T>, SpringJacobian<T>> linearised(const SpringConstants<T>& spring, T h, const Vector<T>& e,
-                                                   const Vector<T>& v) {
-  const Vector<T> none = Vector<T>::Zero();
-  const T L = norm3<T>(e);
-  if (L == T(0) || (spring.cord && L < spring.r)) return {none, {T(0), T(0), none}};
-  const T q = T(1) / L;
-  const T s = spring.k * (L - spring.r) + spring.c * (dot3<T>(v, e) * q);
-  const Vector<T> f = -((s * q) * e);
-  const T along = (h * h) * spring.k + h * spring.c;
-  const T across = s > T(0) ? (h * h) * (s * q) : T(0);
-  return {f, {along, across, Vector<T>(q * e)}};
-}
-
-/// max(|x|, |y|, |z|)
-template <class T>
-T largest_component(const Vector<T>& R) {
-  const T x = std::abs(R.x()), y = std::abs(R.y()), z = std::abs(R.z());
-  const T xy = y > x ? y : x;
-  return z > xy ? z : xy;
-}
 
 /// Steps of backward Euler, one after another.
 template <class T>
@@ -56,7 +33,7 @@ class ImplicitEuler final : public Method<T> {
         ahead_(dynamics.grounds(), dynamics.contact(), model.contact.model == ContactModel::coulomb),
         limits_(model.simulation.implicit),
         h_(static_cast<T>(model.simulation.timestep)) {
-    if (bodies_touch(model)) bodies_ = std::make_unique<TouchAhead<T>>(model);
+    if (bodies_touch(model)) bodies_ = std::make_unique<TouchAhead<T, BodyContact<T>>>(model);
   }
 
   /// Bytes that the solve holds at most: nine fields and those of two products, a force and two copies of the
@@ -105,7 +82,7 @@ class ImplicitEuler final : public Method<T> {
   const Dynamics<T>& dynamics_;
   const Model& model_;
   GroundAhead<T> ahead_;
-  std::unique_ptr<TouchAhead<T>> bodies_;  ///< none where none can touch
+  std::unique_ptr<TouchAhead<T, BodyContact<T>>> bodies_;  ///< none where none can touch
   SolveLimits<T> limits_;
   T h_;
 

@@ -9,17 +9,12 @@
 
 #include "cpu_reference/dynamics.h"
 #include "model/integrator.h"
+#include "physics/phase.h"
 
 namespace aspic::reference {
 
 template <class T>
 class StepDynamics;  // step_dynamics.h
-
-/// Positions and velocities of all particles, or balls.
-template <class T>
-struct Phase {
-  Field<T> x, v;
-};
 
 /// x' = x + h·v, v' = v + h·a(x, v)   (Euler, 1768)
 template <class T, class Forces>

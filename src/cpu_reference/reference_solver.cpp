@@ -8,11 +8,11 @@
 #include "base/flush_denormals.h"
 #include "base/out_of_memory.h"
 #include "base/result.h"
-#include "cpu_reference/balls.h"
-#include "cpu_reference/divergence.h"
 #include "cpu_reference/method.h"
 #include "model/counts.h"
 #include "model/pull.h"
+#include "physics/balls/balls.h"
+#include "physics/divergence.h"
 
 namespace aspic {
 namespace reference {
@@ -77,8 +77,12 @@ class ReferenceSolver final : public Solver {
         break;
       }
       BallPhase<T> next_balls;
+      const auto fly = [](Integrator integrator, const auto& forces, const Phase<T>& s, double h) {
+        return explicit_step(integrator, forces, s, h);
+      };
       if (model().ball_count() > 0) {
-        next_balls = parts_->balls.step(step_, ball_phase_, view_of(std::as_const(phase_)), view_of(next));
+        next_balls =
+            parts_->balls.step(step_, ball_phase_, view_of(std::as_const(phase_)), view_of(next), fly);
       }
       divergence_ = find_divergence<T>(
           model(), [&](Eigen::Index i) { return Vector<T>(next.x.col(i)); },

@@ -76,7 +76,7 @@ class ExplicitSolver final : public DeviceSolver {
   std::uint32_t passes_per_step() const;
   static std::uint32_t counted(std::uint32_t items) { return items > 0 ? COUNTED_OF(items) : 0u; }
   std::uint32_t counted_balls() const { return counted(model_->ball_count()); }
-  /// Since the initial state [s], as in src/cpu_reference/body_contact.cpp.
+  /// Since the initial state [s], as in src/collision/contact_search.cpp.
   float time_of(std::uint32_t step_index) const {
     return static_cast<float>(static_cast<double>(base_step_ + step_index) * model_->simulation.timestep);
   }

@@ -60,7 +60,7 @@ class ImplicitSolver final : public DeviceSolver {
   void wait_for_lists();
   Status make_lists();
   bool eases() const { return touch_.any() && time() < touch_.eased_until(); }
-  /// Of the state last seen, since the initial state [s], as in src/cpu_reference/body_contact.cpp.
+  /// Of the state last seen, since the initial state [s], as in src/collision/contact_search.cpp.
   double time() const { return static_cast<double>(base_step_ + solve_.step) * model_->simulation.timestep; }
   void begin_step() const;
   void forget_queues();

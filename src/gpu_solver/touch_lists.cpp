@@ -4,7 +4,7 @@
 #include <bit>
 #include <tuple>
 
-#include "cpu_reference/body_contact.h"
+#include "collision/contact_search.h"
 #include "model/integrator.h"
 
 namespace aspic {
@@ -31,13 +31,13 @@ TouchLists::TouchLists(const Model& model)
       contact_(model.contact),
       near_(model, surfaces_),
       ahead_step_(row_of(model.simulation.integrator).staged() ? 0.0 : model.simulation.timestep) {
-  const reference::BodyContact<double> contact(model);
-  for (const auto& [point, body, d] : contact.eased())
+  const collision::ContactSearch<double> contact(model);
+  for (const auto& [point, body, d] : contact.initial_overlaps())
     starts_.push_back({point, body, static_cast<float>(d)});
   // Pushes begin at d₀ + s·t, and at ρ at most.
-  for (const auto& [point, body, d] : contact.eased()) {
-    const TouchPair pair = touch_pair(contact_, surfaces_.bodies[body_of(point)], surfaces_.bodies[body],
-                                      body_of(point) == body);
+  for (const auto& [point, body, d] : contact.initial_overlaps()) {
+    const TouchPair pair = touch_pair(contact_, surfaces_.bodies[surfaces_.body_of_point(point)],
+                                      surfaces_.bodies[body], surfaces_.body_of_point(point) == body);
     // A little longer: rounding decides nothing afterwards.
     eased_until_ = std::max(eased_until_, 1.001 * (pair.reach - d) / pair.spacing + 1e-3);
   }
@@ -55,15 +55,10 @@ std::vector<layout::uvec4> TouchLists::triangles() const {
   return all;
 }
 
-std::uint32_t TouchLists::body_of(std::uint32_t point) const {
-  const auto after = std::ranges::upper_bound(surfaces_.bodies, point, {}, &TouchBody::first_point);
-  return static_cast<std::uint32_t>(after - surfaces_.bodies.begin()) - 1;
-}
-
 /// Without its triangles.
-layout::TouchEncounter TouchLists::encounter_of(const reference::Encounter& near) const {
+layout::TouchEncounter TouchLists::encounter_of(const collision::Encounter& near) const {
   const TouchPoint& point = surfaces_.points[near.point];
-  const std::uint32_t own = body_of(near.point);
+  const std::uint32_t own = surfaces_.body_of_point(near.point);
   const TouchBody &points = surfaces_.bodies[own], &faces = surfaces_.bodies[near.body];
   TouchPair pair = touch_pair(contact_, points, faces, own == near.body);
   if (ahead_step_ > 0.0) pair = seen_ahead(pair, ahead_step_);
@@ -110,7 +105,7 @@ Status TouchLists::make(std::span<const layout::Particle> particles) {
   near_.make(places);
   words_ = surfaces_.at_particle;
   encounters_.clear();
-  for (const reference::Encounter& near : near_.encounters()) {
+  for (const collision::Encounter& near : near_.encounters()) {
     if (near.count > most_near) return too_many(near.count, "triangles near one point", most_near);
     layout::TouchEncounter made = encounter_of(near);
     made.near_first = static_cast<std::uint32_t>(words_.size());

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "cpu_reference/near_triangles.h"
+#include "collision/near_triangles.h"
 #include "gpu_solver/layout.h"
 #include "model/touch_surface.h"
 
@@ -43,13 +43,12 @@ class TouchLists {
     std::uint32_t particle, encounter;
     bool visits;
   };
-  layout::TouchEncounter encounter_of(const reference::Encounter& near) const;
-  std::uint32_t body_of(std::uint32_t point) const;
+  layout::TouchEncounter encounter_of(const collision::Encounter& near) const;
   Status list_particles();
 
   TouchSurfaces surfaces_;
   ContactSettings contact_;
-  reference::NearTriangles near_;
+  collision::NearTriangles near_;
   double ahead_step_;  // of implicit Euler; else 0 [s]
   double eased_until_ = 0.0;
   struct Start {

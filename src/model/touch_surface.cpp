@@ -123,6 +123,16 @@ QuadMesh touched_mesh(const Body& body) {
 
 }  // namespace
 
+std::uint32_t TouchSurfaces::body_of_point(std::uint32_t point) const {
+  const auto after = std::ranges::upper_bound(bodies, point, {}, &TouchBody::first_point);
+  return static_cast<std::uint32_t>(after - bodies.begin()) - 1;
+}
+
+std::uint32_t TouchSurfaces::body_of_triangle(std::uint32_t triangle) const {
+  const auto after = std::ranges::upper_bound(bodies, triangle, {}, &TouchBody::first_triangle);
+  return static_cast<std::uint32_t>(after - bodies.begin()) - 1;
+}
+
 TouchSurfaces touch_surfaces(const Model& model) {
   TouchSurfaces all;
   for (const Body& body : model.bodies) {
@@ -171,7 +181,7 @@ TouchPair seen_ahead(TouchPair pair, double h) {
 
 std::uint64_t touch_bytes(const Model& model) {
   const TouchSurfaces all = touch_surfaces(model);
-  // With places of points, boxes and corners of triangles (src/cpu_reference/near_triangles.h).
+  // With places of points, boxes and corners of triangles (src/collision/near_triangles.h).
   return all.points.size() * (sizeof(TouchPoint) + 3 * sizeof(Vec3)) +
          all.triangles.size() * (sizeof(TouchTriangle) + sizeof(all.faces[0]) + 9 * sizeof(double)) +
          (all.from.size() + all.at_particle.size() + model.particle_count()) * sizeof(std::uint32_t);

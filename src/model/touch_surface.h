@@ -62,6 +62,9 @@ struct TouchSurfaces {
   std::span<const std::uint32_t> triangles_at(std::uint32_t point) const {
     return std::span(at_particle).subspan(from[point], from[point + 1] - from[point]);
   }
+  /// Indices in `bodies`.
+  std::uint32_t body_of_point(std::uint32_t point) const;
+  std::uint32_t body_of_triangle(std::uint32_t triangle) const;
 };
 
 /// Points on a sharp edge between two neighbouring particles.

@@ -152,12 +152,12 @@ Figure functions_figure(const Scene& scene) {
         {"springs", "`GoalNet::InitializeSpring`", "`src/model/goal_net.cpp`", "`body/goal-net/made`"});
   rows.push_back({"forces",
                   nets && !cubes ? "`GoalNet::ComputeInternalForce`" : "`Cube::computeInternalForce`",
-                  "`src/cpu_reference/spring.h`", "`force`"});
+                  "`src/physics/springs/law.h`", "`force`"});
   rows.push_back({"collisions", nets && !cubes ? "`ParticlePlaneCollision`" : "`handleCollision`",
-                  "`src/cpu_reference/contact.h`", "`contact`"});
+                  "`src/physics/terrain/ground.h`", "`contact`"});
   if (nets)
     rows.push_back({"balls", "`BallPlaneCollision`, `BallToBallCollision`, `BallParticleCollision`",
-                    "`src/cpu_reference/ball_contact.h`", "`balls`"});
+                    "`src/physics/balls/law.h`", "`balls`"});
   rows.push_back({"integrators",
                   nets && !cubes ? "`CMassSpringSystem::ExplicitEuler`, `RungeKutta`" : "`integrate`",
                   "`src/cpu_reference/integrators.h`", "`order`"});

@@ -13,17 +13,17 @@ namespace aspic::verify {
 
 TouchSample touching_in(const Model& model, const State& state) {
   using Contact = reference::BodyContact<double>;
-  using Vector = reference::Vector<double>;
+  using Vector = physics::Vector<double>;
   Contact contact(model);
-  const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
-  const Contact::Particles at = {reference::components(x.data()), reference::components(v.data()), 3};
+  const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
+  const Contact::Particles at = {physics::components(x.data()), physics::components(v.data()), 3};
   TouchSample found;
   if (!contact.begin_step(state.step, at) || !contact.find(at)) return found;
   const auto velocity = [&](std::uint32_t place) { return Vector(at.velocity(contact.particles()[place])); };
   for (const auto& touch : contact.touches()) {
     const Vector r =
-        reference::over_carriers<double>(touch, velocity) - reference::over_corners<double>(touch, velocity);
-    const double way = model.simulation.timestep * reference::dot3<double>(touch.n, r);
+        physics::over_carriers<double>(touch, velocity) - physics::over_corners<double>(touch, velocity);
+    const double way = model.simulation.timestep * physics::dot3<double>(touch.n, r);
     ++found.count;
     found.least = std::min(found.least, touch.d / touch_spacing);
     found.greatest = std::max(found.greatest, touch.d / touch_spacing);

@@ -11,7 +11,7 @@
 namespace aspic {
 namespace {
 
-using reference::Field;
+using physics::Field;
 
 /// A cube with a pinned face, a net with all types of springs whose own are cords, and a ball of ground.
 ModelSettings cube_and_net() {
@@ -47,8 +47,8 @@ void expect_references_force(const Model& model, const State& state, const std::
   const auto count = static_cast<Eigen::Index>(model.particle_count());
   Field<double> x(3, count), v(3, count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    x.col(i) = reference::rounded<double>(state.position[static_cast<std::size_t>(i)]);
-    v.col(i) = reference::rounded<double>(state.velocity[static_cast<std::size_t>(i)]);
+    x.col(i) = physics::rounded<double>(state.position[static_cast<std::size_t>(i)]);
+    v.col(i) = physics::rounded<double>(state.velocity[static_cast<std::size_t>(i)]);
   }
   reference::Dynamics<double> dynamics(model);
   dynamics.set_inputs(inputs_of(pull));

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "analysis/touch_facts.h"
 #include "aspic/inputs.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
+#include "support/contact_motions.h"
 #include "support/integrator_names.h"
 #include "support/pile.h"
 
@@ -55,6 +57,37 @@ TEST(BodiesOnTheCpu, TouchThemselvesWithTheReferencesBits) {
   settings.contact.self = true;
   const Model model = test::build(settings);
   EXPECT_EQ(hash_on_cpu(model, 200, 2), state_hash_text(after(model, 200)));
+}
+
+// The reference looks at every candidate in every step; this backend keeps lists for as long as they hold.
+TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsInEveryKindOfMotion) {
+  for (test::ContactMotion& motion : test::contact_motions()) {
+    SCOPED_TRACE(motion.name);
+    if (motion.impact_share > 0.0) {
+      const double limit = touch_facts(test::build(motion.settings)).pairings.at(0).speed();
+      motion.settings.cubes[0].velocity.y = -motion.impact_share * limit;
+    }
+    const Model model = test::build(motion.settings);
+    Inputs inputs;
+    if (motion.pull > 0.0) inputs.pulls.push_back({0, {}, motion.pull, 10.0});
+    const auto reference = std::move(*make_reference_solver(model, Precision::single));
+    const auto cpu = std::move(*make_cpu_solver(model, {2}));
+    for (Solver* const each : {reference.get(), cpu.get()}) {
+      ASSERT_TRUE(each->set_inputs(inputs).ok());
+      EXPECT_FALSE((*each->advance(motion.steps)).divergence.has_value());
+    }
+    const State end = *reference->state();
+    EXPECT_EQ(*cpu->state(), end);
+    motion.settings.contact.bodies = motion.settings.contact.self = false;
+    EXPECT_FALSE(after(test::build(motion.settings), motion.steps) == end) << "nothing touches";
+
+    // From this state on, a solver without lists.
+    const auto resumed = std::move(*make_cpu_solver(model, {1}));
+    ASSERT_TRUE(resumed->load(end).ok());
+    ASSERT_TRUE(resumed->set_inputs(inputs).ok());
+    for (Solver* const each : {cpu.get(), resumed.get()}) ASSERT_TRUE(each->advance(50).ok());
+    EXPECT_EQ(*resumed->state(), *cpu->state());
+  }
 }
 
 // Pins, pulls and other constants reach contact too.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "cpu_reference/integrators.h"
 #include "cpu_reference/step_dynamics.h"
 #include "cpu_reference/touching.h"
 #include "support/integrator_names.h"
@@ -327,8 +328,7 @@ TEST(BodyContact, SqueezedCubeTakesItsShapeAgain) {
   const reference::Dynamics<double> dynamics(model);
   reference::BodyContact<double> contact(model);
   const State start = initial_state(model, Precision::double_);
-  reference::Phase<double> s = {reference::field<double>(start.position),
-                                reference::field<double>(start.velocity)};
+  physics::Phase<double> s = {physics::field<double>(start.position), physics::field<double>(start.velocity)};
   const double closing = (edge + 0.3 * S - 0.3 * edge) / 2;  // at 1 m/s
   const auto count = static_cast<Eigen::Index>(8 * 3 * 7);
   double deepest = 1.0;

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "cpu_reference/ground.h"
-#include "cpu_reference/implicit_ground.h"
 #include "cpu_reference/reference_solver.h"
+#include "physics/terrain/implicit.h"
 #include "support/epsilon.h"
 
 namespace aspic {

@@ -1,11 +1,10 @@
-#include "cpu_reference/contact.h"
-
 #include <gtest/gtest.h>
 
 #include "cpu_reference/ground.h"
 #include "model/terrain.h"
+#include "physics/terrain/ground.h"
 
-namespace aspic::reference {
+namespace aspic::physics {
 namespace {
 
 using V = Vector<double>;
@@ -72,4 +71,4 @@ TEST(Course, ContactForceResistsAndRubs) {
 }
 
 }  // namespace
-}  // namespace aspic::reference
+}  // namespace aspic::physics

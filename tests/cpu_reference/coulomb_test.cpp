@@ -1,5 +1,5 @@
 // The Coulomb contact rule, expression by expression. What it makes of bodies is in rest_test.cpp.
-#include "cpu_reference/coulomb.h"
+#include "physics/terrain/coulomb.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "model/terrain.h"
 #include "support/epsilon.h"
 
-namespace aspic::reference {
+namespace aspic::physics {
 namespace {
 
 using V = Vector<double>;
@@ -204,4 +204,4 @@ TEST(Coulomb, NothingTunnels) {
 }
 
 }  // namespace
-}  // namespace aspic::reference
+}  // namespace aspic::physics

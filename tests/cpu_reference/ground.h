@@ -2,9 +2,9 @@
 // Ground as the reference's contact rules take it.
 #include <limits>
 
-#include "cpu_reference/contact.h"
+#include "physics/terrain/ground.h"
 
-namespace aspic::reference {
+namespace aspic::physics {
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -17,4 +17,4 @@ inline Ground<double> plane(double e = 0.5, double mu = 0.25, double mass = infi
   return Ground<double>(t);
 }
 
-}  // namespace aspic::reference
+}  // namespace aspic::physics

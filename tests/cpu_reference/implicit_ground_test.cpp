@@ -1,7 +1,5 @@
 // The ground inside implicit Euler's equation: P of one, two and three terrains, its derivative, and that the
 // solve ends at a solution.
-#include "cpu_reference/implicit_ground.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -14,6 +12,7 @@
 #include "cpu_reference/implicit_euler.h"
 #include "cpu_reference/phase.h"
 #include "model/terrain.h"
+#include "physics/terrain/implicit.h"
 #include "support/epsilon.h"
 #include "support/model_building.h"
 

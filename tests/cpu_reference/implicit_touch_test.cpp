@@ -1,13 +1,12 @@
 // Contact between bodies in the equation of implicit Euler, in steps of 1/60 s: every step is solved, bodies
 // rest and stick, impacts keep momentum and gain no energy. The bounds are those of docs/contact.md.
-#include "cpu_reference/implicit_touch.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "cpu_reference/touching.h"
+#include "physics/contact/implicit.h"
 
 namespace aspic {
 namespace {
@@ -161,8 +160,8 @@ TEST(ImplicitTouch, KeepsEveryBitWhereNothingIsNear) {
 
 // The matrix is the derivative of the force: −h·∂F/∂v'.
 TEST(ImplicitTouch, MatrixIsTheDerivativeOfTheForce) {
-  using reference::Vector;
-  reference::Touch<double> touch;
+  using physics::Vector;
+  physics::Touch<double> touch;
   touch.n = Vector<double>(0.48, 0.6, 0.64);
   touch.rest = 3.0;
   touch.c = 250.0;
@@ -171,15 +170,15 @@ TEST(ImplicitTouch, MatrixIsTheDerivativeOfTheForce) {
     for (const double u : {-0.05, 0.05}) {
       touch.rub = 0.3 * Vector<double>(0.8, 0.0, -0.6);
       const Vector<double> r = u * touch.n + Vector<double>(0.02, 0.01, -0.03);
-      reference::TouchAnswer<double> at, plus, minus;
+      physics::TouchAnswer<double> at, plus, minus;
       at.cone = plus.cone = minus.cone = cone;
-      reference::answer<double>(touch, r, h, at);
+      physics::answer<double>(touch, r, h, at);
       for (int c = 0; c < 3; ++c) {
         const Vector<double> step = 1e-6 * Vector<double>::Unit(c);
-        reference::answer<double>(touch, r + step, h, plus);
-        reference::answer<double>(touch, r - step, h, minus);
+        physics::answer<double>(touch, r + step, h, plus);
+        physics::answer<double>(touch, r - step, h, minus);
         const Vector<double> slope = -h / 2e-6 * (plus.force - minus.force);
-        EXPECT_LE((slope - reference::product_of<double>(touch, at, Vector<double>::Unit(c))).norm(), 1e-6)
+        EXPECT_LE((slope - physics::product_of<double>(touch, at, Vector<double>::Unit(c))).norm(), 1e-6)
             << cone << ' ' << u;
       }
     }

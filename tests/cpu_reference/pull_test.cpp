@@ -141,13 +141,13 @@ TEST(Pull, LightensWhatPressesOnTheGround) {
   model.terrain[0].geometry.vectors[0] = {0, -1, 0};
   model.terrain[0].friction = 0.5;
   reference::Dynamics<double> dynamics(model);
-  const reference::Phase<double> s = reference::start_of(model);
+  const physics::Phase<double> s = reference::start_of(model);
   dynamics.set_inputs({{Pull{0, {0, 1, 0}, 4.0, 9.0}}});
   const double N = 3.0 * 9.8 - 2.0 * 4.0;
-  const reference::Field<double> f = dynamics.force(s.x, s.v);
+  const physics::Field<double> f = dynamics.force(s.x, s.v);
   EXPECT_NEAR(f(0, 0), -0.5 * N * 2.0, 8 * eps * N);
   EXPECT_NEAR(f(1, 0), 0.0, 8 * eps * N);
-  const reference::Field<double> held = dynamics.held_contact_force(s.x, s.v);
+  const physics::Field<double> held = dynamics.held_contact_force(s.x, s.v);
   EXPECT_NEAR(held(1, 0), N, 8 * eps * N);
   dynamics.set_inputs({});
   EXPECT_NEAR(dynamics.force(s.x, s.v)(0, 0), -0.5 * (3.0 * 9.8) * 2.0, 8 * eps * 30.0);
@@ -161,12 +161,12 @@ TEST(Pull, IsPartOfTheEquationThatImplicitEulerSolves) {
   reference::ImplicitEuler<double> method(dynamics, model);
   dynamics.set_inputs({{Pull{21, {3.0, 4.0, 0.0}, 5000.0, 40.0}}});
   const double h = model.simulation.timestep;
-  reference::Phase<double> s = reference::start_of(model);
+  physics::Phase<double> s = reference::start_of(model);
   for (int n = 0; n < 10; ++n) {
     SolveReport report;
-    const reference::Phase<double> next = method.step(s, report);
+    const physics::Phase<double> next = method.step(s, report);
     ASSERT_EQ(report.end, SolveEnd::converged);
-    const reference::Field<double> R = next.v - s.v - h * dynamics.acceleration(next.x, next.v);
+    const physics::Field<double> R = next.v - s.v - h * dynamics.acceleration(next.x, next.v);
     // Tolerance 1e-9, and x' rounded to the ulp of 8 m feeds the pull and 26 springs of 2,000 N/m.
     EXPECT_LE(R.cwiseAbs().maxCoeff(), 1e-9 + h * 60000.0 * 8.0 * eps);
     s = next;

@@ -1,11 +1,11 @@
-#include "cpu_reference/reductions.h"
+#include "physics/reductions.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace aspic::reference {
+namespace aspic::physics {
 namespace {
 
 /// The definition again, as a recursion on one block: halves of 128, 64, … are folded onto each other.
@@ -68,7 +68,7 @@ TEST(PartnerSum, GoesByBlocks) {
   for (const std::size_t count : {1u, 2u, 255u, 256u, 257u, 511u, 512u, 513u, 5000u}) {
     std::vector<float> values(count);
     for (float& value : values) value = number(random);
-    reference::PartnerSum<float> sum(0.0f);
+    physics::PartnerSum<float> sum(0.0f);
     for (const float value : values) sum.add(value);
     std::vector<float> blocks;
     for (std::size_t i = 0; i < count; ++i) {
@@ -79,8 +79,8 @@ TEST(PartnerSum, GoesByBlocks) {
     for (std::size_t b = 1; b < blocks.size(); ++b) expected = expected + blocks[b];
     EXPECT_EQ(sum.total(), expected) << count;
   }
-  EXPECT_EQ(reference::PartnerSum<float>(0.0f).total(), 0.0f);
+  EXPECT_EQ(physics::PartnerSum<float>(0.0f).total(), 0.0f);
 }
 
 }  // namespace
-}  // namespace aspic::reference
+}  // namespace aspic::physics

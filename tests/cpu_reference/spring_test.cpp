@@ -1,10 +1,10 @@
-#include "cpu_reference/spring.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace aspic::reference {
+#include "physics/springs/law.h"
+
+namespace aspic::physics {
 namespace {
 
 SpringConstants<double> spring(double k, double c, double r, bool cord = false) {
@@ -51,4 +51,4 @@ TEST(SpringForce, ExchangingTheEndsNegatesEveryBit) {
 }
 
 }  // namespace
-}  // namespace aspic::reference
+}  // namespace aspic::physics

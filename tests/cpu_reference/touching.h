@@ -79,9 +79,9 @@ struct Touching {
 };
 inline Touching contacts_in(const Model& model, const State& state) {
   reference::BodyContact<double> contact(model);
-  const auto x = reference::field<double>(state.position), v = reference::field<double>(state.velocity);
-  const reference::BodyContact<double>::Particles at = {reference::components(x.data()),
-                                                        reference::components(v.data()), 3};
+  const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
+  const reference::BodyContact<double>::Particles at = {physics::components(x.data()),
+                                                        physics::components(v.data()), 3};
   Touching found;
   if (!contact.begin_step(state.step, at) || !contact.find(at)) return found;
   for (const auto& touch : contact.touches()) {

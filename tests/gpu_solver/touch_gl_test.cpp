@@ -7,6 +7,7 @@
 #include "cpu_reference/reference_solver.h"
 #include "gpu_solver/force_paths.h"
 #include "gpu_solver/gpu_solver.h"
+#include "support/contact_motions.h"
 #include "support/gl_fixture.h"
 #include "support/integrator_names.h"
 #include "support/pile.h"
@@ -152,6 +153,34 @@ TEST_F(Touching, HasTheReferencesBitsWithBallsAndInputs) {
     ASSERT_TRUE(each->advance(50).ok());
   }
   EXPECT_EQ(*solver->state(), *expected->state());
+}
+
+// Lists are made on the host for many steps; the reference looks at every candidate in every step.
+TEST_F(Touching, HasTheReferencesBitsInEveryKindOfMotion) {
+  for (test::ContactMotion& motion : test::contact_motions()) {
+    SCOPED_TRACE(motion.name);
+    if (motion.impact_share > 0.0) motion.settings.cubes[0].velocity.y = -20.0;
+    const std::uint64_t steps = std::min<std::uint64_t>(motion.steps, 200);
+    const Model model = test::build(motion.settings);
+    Inputs inputs;
+    if (motion.pull > 0.0) inputs.pulls.push_back({0, {}, motion.pull, 10.0});
+    const auto expected = std::move(*make_reference_solver(model, Precision::single));
+    const auto solver = gpu(model);
+    State late;  // bodies that meet late have just met
+    if (motion.steps > 1000) {
+      const auto before = std::move(*make_reference_solver(model, Precision::single));
+      ASSERT_TRUE(before->advance(motion.steps - steps).ok());
+      late = *before->state();
+    }
+    for (Solver* const each : {expected.get(), static_cast<Solver*>(solver.get())}) {
+      if (motion.steps > 1000) {
+        ASSERT_TRUE(each->load(late).ok());
+      }
+      ASSERT_TRUE(each->set_inputs(inputs).ok());
+      ASSERT_TRUE(each->advance(steps).ok());
+    }
+    EXPECT_EQ(*solver->state(), *expected->state());
+  }
 }
 
 // A state in mid-contact, other constants, and steps asked for one by one.

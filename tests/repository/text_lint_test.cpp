@@ -92,7 +92,7 @@ std::string room_of_public(const std::string& header) {
 std::set<std::string> included_rooms(const std::string& room) {
   static const std::regex include(R"re(#include "([a-z_]+)/([a-z_]+))re");
   std::set<std::string> rooms;
-  for (const auto& entry : std::filesystem::directory_iterator(root / "src" / room)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "src" / room)) {
     const std::string extension = entry.path().extension().string();
     if (extension != ".h" && extension != ".cpp") continue;
     const std::string text = contents(entry.path());
@@ -133,6 +133,21 @@ TEST(Rooms, UseWhatTheArchitectureSaysAndNothingBelowThem) {
   for (const auto& entry : std::filesystem::directory_iterator(root / "src"))
     if (entry.is_directory()) present.insert(entry.path().filename().string());
   EXPECT_EQ(seen, present);
+}
+
+// The reference proves the other solvers, so it must be short and share no search with them.
+TEST(Reference, IsShortWithoutThreadsCachesAndVectorCode) {
+  static const std::regex banned(
+      R"(collision/|<thread>|<mutex>|<future>|<condition_variable>|hwy|highway|thread_local|atomic_ref|fetch_add)");
+  std::size_t lines = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "src/cpu_reference")) {
+    if (entry.path().extension() == ".txt" || !entry.is_regular_file()) continue;
+    std::istringstream text(contents(entry.path()));
+    for (std::string line; std::getline(text, line); ++lines)
+      EXPECT_FALSE(std::regex_search(line, banned)) << entry.path() << ": " << line;
+  }
+  EXPECT_GT(lines, 1000u);
+  EXPECT_LE(lines, 2800u);
 }
 
 /// What the public headers may not have: other libraries, the program's rooms, and a device's types.
