@@ -22,7 +22,7 @@ class AssembledSystem {
   reference::Trial<float> try_step(float lambda, bool onwards);
   static bool interrupted() { return false; }
   static bool touches() { return false; }
-  reference::Trial<float> touch_again(bool) { return evaluate(); }
+  reference::Trial<float> update_contacts(bool) { return evaluate(); }
 
   /// A·δ = r to ‖r‖ ≤ η·‖r₀‖.
   void solve(float forcing, std::uint32_t most, std::uint32_t& iterations);

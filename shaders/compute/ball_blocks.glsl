@@ -5,7 +5,7 @@ layout(std430, binding = BINDING_STATE_A) restrict buffer StateA { Particle stat
 layout(std430, binding = BINDING_STATE_B) restrict buffer StateB { Particle state_b[]; };
 layout(std430, binding = BINDING_BALLS) restrict buffer Balls { Ball balls[]; };
 #ifndef ASPIC_BALL_FACE_KERNEL
-layout(std430, binding = BINDING_BALL_TOUCHES) restrict buffer TouchesBlock { BallTouches touches[]; };
+layout(std430, binding = BINDING_BALL_CONTACTS) restrict buffer ContactsBlock { BallContacts contacts[]; };
 #endif
 
 #ifdef ASPIC_IMPLICIT

@@ -9,7 +9,7 @@ void main() {
   uint b = item_index();
   if (b >= ball_count || idle()) return;
   Ball ball = ball_in(slot_before(ball_phase), b);
-  if (touches[b].pairs[ball_phase] != 0u) {
+  if (contacts[b].pairs[ball_phase] != 0u) {
     Impulse sum = sum_all(seeking_ball(b), b, KERNEL_BALL_EXCHANGE);
     precise vec3 change = ball.velocity.w * sum.linear;
     if (ball_phase == BALL_PHASE_POSITIONS) {

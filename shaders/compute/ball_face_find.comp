@@ -5,7 +5,7 @@
 #define ASPIC_BALL_FACE_KERNEL
 #include "compute/ball_blocks.glsl"
 #include "compute/ball_face_blocks.glsl"
-#include "compute/touch_sight.glsl"
+#include "compute/closest_point.glsl"
 
 #define NO_TRIANGLE 0xffffffffu
 #define NOTHING_NEAR 3.0e38
@@ -18,8 +18,8 @@ struct Looker {
   uvec4 body;
 };
 
-bool look(Looker ball, uint t, out Sight seen) {
-  seen = Sight(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0);
+bool look(Looker ball, uint t, out ClosestPoint seen) {
+  seen = ClosestPoint(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0);
   uvec3 corner = corners_of(t);
   precise vec3 A = end_place(corner.x), B = end_place(corner.y), C = end_place(corner.z);
   if (box_beyond(min(min(A, B), C), max(max(A, B), C), ball.far, ball.P)) return false;
@@ -40,7 +40,7 @@ uint next_of(Looker ball, uint t, uint end) {
 uint nearest_of(Looker ball) {
   uint first = ball.body.x * FACE_BLOCK, end = first + ball.body.y * FACE_BLOCK;
   precise float least = NOTHING_NEAR;
-  Sight seen;
+  ClosestPoint seen;
   uint t = first;
   for (uint n = 0u; t < end; ++n) {
     if (bounded(n + 1u, KERNEL_BALL_FACES) == n) break;
@@ -73,7 +73,7 @@ BallFacePair none() {
 }
 
 BallFacePair pair_with(Looker ball, uint t) {
-  Sight seen;
+  ClosestPoint seen;
   look(ball, t, seen);
   precise float b = seen.place.x, c = seen.place.y;
   precise float a = (1.0 - b) - c;
@@ -87,7 +87,7 @@ BallFacePair pair_with(Looker ball, uint t) {
   BallFacePair pair = none();
   uvec3 corner = corners_of(t);
   pair.corner = uint[3](corner.x, corner.y, corner.z);
-  pair.flags = FACE_TOUCHES | (within ? FACE_WITHIN : 0u);
+  pair.flags = FACE_CONTACTS | (within ? FACE_WITHIN : 0u);
   pair.share = float[3](a, b, c);
   pair.side = side;
   return pair;

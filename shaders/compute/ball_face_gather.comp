@@ -13,7 +13,7 @@ void end_ball(uint b) {
     uint bodies = bounded(face_body_count(), KERNEL_BALL_FACES);
     for (uint body = 0u; body < bodies; ++body) {
       uint i = b * face_body_count() + body;
-      if ((face_pairs[i].flags & FACE_TOUCHES) == 0u || face_pairs[i].acts == 0u) continue;
+      if ((face_pairs[i].flags & FACE_CONTACTS) == 0u || face_pairs[i].acts == 0u) continue;
       linear = linear + face_pairs[i].linear.xyz;
       turning = turning + face_pairs[i].turning.xyz;
     }
@@ -64,7 +64,7 @@ vec3 sum_of_many(uint p, uint body) {
   for (uint b = 0u; b < rounds; ++b) {
     uint i = b * face_body_count() + body;
     BallFacePair pair = face_pairs[i];
-    if ((pair.flags & FACE_TOUCHES) == 0u || pair.acts == 0u) continue;
+    if ((pair.flags & FACE_CONTACTS) == 0u || pair.acts == 0u) continue;
     for (uint n = 0u; n < 3u; ++n)
       if (pair.corner[n] == p) sum = without(sum, i, n);
   }

@@ -19,7 +19,7 @@ void main() {
   uint i = item_index();
   if (idle() || i >= pair_count()) return;
   BallFacePair pair = face_pairs[i];
-  if ((pair.flags & FACE_TOUCHES) == 0u || pair.acts == 0u) return;
+  if ((pair.flags & FACE_CONTACTS) == 0u || pair.acts == 0u) return;
   uint b = ball_of_pair(i);
   uint p_0 = pair.corner[0], p_1 = pair.corner[1], p_2 = pair.corner[2];
   Ball ball = ball_in(slot_before(ball_phase), b);

@@ -4,7 +4,7 @@
 #define ASPIC_BALL_FACE_KERNEL
 #include "compute/ball_blocks.glsl"
 #include "compute/ball_face_blocks.glsl"
-#include "compute/touch_sight.glsl"
+#include "compute/closest_point.glsl"
 layout(location = LOCATION_BALL_PHASE) uniform uint ball_phase;
 
 // xyz: normal towards the ball; w: distance.
@@ -41,7 +41,7 @@ void main() {
   uint i = item_index();
   if (idle() || i >= pair_count()) return;
   BallFacePair pair = face_pairs[i];
-  if ((pair.flags & FACE_TOUCHES) == 0u) return;
+  if ((pair.flags & FACE_CONTACTS) == 0u) return;
   Ball ball = ball_in(slot_before(ball_phase), ball_of_pair(i));
   precise vec4 gap = gap_of(pair, ball);
   bool acting = acts(pair, ball, gap);

@@ -16,7 +16,7 @@ bool crowded = false;
 
 // Puts a ball into the sorted list if it is near.
 void consider(Seeker seeker, uint b) {
-  if (!is_partner(seeker, KIND_BALL, b) || !may_touch(seeker, KIND_BALL, b)) return;
+  if (!is_partner(seeker, KIND_BALL, b) || !may_contact(seeker, KIND_BALL, b)) return;
   if (!(partner(seeker, KIND_BALL, b).gap.w < epsilon)) return;
   crowded = found_count == LIST_SIZE;
   if (crowded) return;
@@ -59,32 +59,32 @@ void search(Seeker seeker) {
 }
 #endif
 
-void keep_list(Seeker seeker, inout BallTouches touch) {
-  touch.list = take_list(found_count);
-  if (touch.list == NO_BODY) return;
+void keep_list(Seeker seeker, inout BallContacts contact) {
+  contact.list = take_list(found_count);
+  if (contact.list == NO_BODY) return;
   for (uint n = 0u; n < found_count; ++n) {
     uint b = found[n];
-    lists[touch.list + n] = b;
+    lists[contact.list + n] = b;
     Partner other = partner(seeker, KIND_BALL, b);
-    if (other.gap.w < 0.0) touch.overlapping |= 1u << n;
+    if (other.gap.w < 0.0) contact.overlapping |= 1u << n;
     if (seeker.kind == KIND_PARTICLE) {
       mark(b, seeker.index);
     } else if (dot3(other.dv, other.gap.xyz) < 0.0) {
-      touch.acting |= 1u << n;
+      contact.acting |= 1u << n;
     }
   }
-  touch.listed = found_count;
-  touch.pairs[BALL_PHASE_BALLS] = uint(bitCount(touch.acting));
-  touch.pairs[BALL_PHASE_POSITIONS] = uint(bitCount(touch.overlapping));
+  contact.listed = found_count;
+  contact.pairs[BALL_PHASE_BALLS] = uint(bitCount(contact.acting));
+  contact.pairs[BALL_PHASE_POSITIONS] = uint(bitCount(contact.overlapping));
 }
 
-void keep_items(uint body, inout BallTouches touch) {
+void keep_items(uint body, inout BallContacts contact) {
   uint blocks = blocks_of(ball_count);
   uint count = bounded(blocks, KERNEL_BALL_FIND);
-  touch.listed = CROWDED;
-  touch.list = take_items(blocks);
-  if (touch.list == NO_BODY) return;
-  for (uint k = 0u; k < count; ++k) write_item(touch.list + k, body, KIND_BALL, k * PARTNER_BLOCK, blocks);
+  contact.listed = CROWDED;
+  contact.list = take_items(blocks);
+  if (contact.list == NO_BODY) return;
+  for (uint k = 0u; k < count; ++k) write_item(contact.list + k, body, KIND_BALL, k * PARTNER_BLOCK, blocks);
 }
 
 void main() {
@@ -93,11 +93,11 @@ void main() {
   Seeker seeker = seeking(i);
   bool waits = seeker.kind == KIND_BALL && ball_in(slot_before(ball_phase), i).velocity.w == 0.0;
   if (!waits && finite(seeker.x)) search(seeker);
-  BallTouches touch = BallTouches(uint[3](0u, 0u, 0u), 0u, 0u, 0u, 0u, NO_BODY);
+  BallContacts contact = BallContacts(uint[3](0u, 0u, 0u), 0u, 0u, 0u, 0u, NO_BODY);
   if (crowded) {
-    keep_items(i, touch);
+    keep_items(i, contact);
   } else if (found_count > 0u) {
-    keep_list(seeker, touch);
+    keep_list(seeker, contact);
   } else if (seeker.kind == KIND_PARTICLE) {
 #ifndef ASPIC_BALL_FACES
     // It is at the end of its step.
@@ -105,5 +105,5 @@ void main() {
     if (bad != NO_STEP) mark_divergence(bad);
 #endif
   }
-  touches[i] = touch;
+  contacts[i] = contact;
 }

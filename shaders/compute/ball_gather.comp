@@ -18,7 +18,7 @@ void main() {
   if (marked == 0u) return;
   uint total = marked << mark_shift;
   uint first = take_items(total);
-  touches[b].items = first;
+  contacts[b].items = first;
   if (first == NO_BODY) return;
   // One loop over words, marks and the blocks of each mark.
   uint taken = 0u, w = 0u, part = 0u;

@@ -21,7 +21,7 @@ void main() {
   uint acts = 0u, overlaps = 0u;
   for (uint n = 0u; n < 32u && first + n < end; ++n) {
     uint index = first + n;
-    if (!is_partner(seeker, sought, index) || !may_touch(seeker, sought, index)) continue;
+    if (!is_partner(seeker, sought, index) || !may_contact(seeker, sought, index)) continue;
     Partner other = partner(seeker, sought, index);
     if (!(other.gap.w < epsilon)) continue;
     if (!velocities_known || dot3(other.dv, other.gap.xyz) < 0.0) acts |= 1u << n;
@@ -33,11 +33,11 @@ void main() {
   if (overlaps != 0u) {
     uint count = uint(bitCount(overlaps));
     atomicAdd(items[i].overlapping, count);
-    atomicAdd(touches[body].pairs[BALL_PHASE_POSITIONS], count);
+    atomicAdd(contacts[body].pairs[BALL_PHASE_POSITIONS], count);
   }
   if (velocities_known && acts != 0u) {
     uint count = uint(bitCount(acts));
     atomicAdd(items[i].acting, count);
-    atomicAdd(touches[body].pairs[BALL_PHASE_BALLS], count);
+    atomicAdd(contacts[body].pairs[BALL_PHASE_BALLS], count);
   }
 }

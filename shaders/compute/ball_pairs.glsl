@@ -40,7 +40,7 @@ bool is_partner(Seeker seeker, uint kind, uint index) {
 }
 
 // Whether a partner may be nearer than ε: a rejected one is further away, far beyond rounding.
-bool may_touch(Seeker seeker, uint kind, uint index) {
+bool may_contact(Seeker seeker, uint kind, uint index) {
   precise vec3 x = vec3(0.0);
   precise float reach = 0.0;
   if (kind == KIND_PARTICLE) {

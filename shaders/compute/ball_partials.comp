@@ -11,7 +11,7 @@ void main() {
   if (idle() || i >= work.items_used) return;
   uint body = items[i].body, kind = items[i].kind, count = count_in(i);
   if (!phase_has(body < ball_count ? KIND_BALL : KIND_PARTICLE, kind)) return;
-  if (count == 0u || touches[body].pairs[ball_phase] <= PARTNER_BLOCK) return;
+  if (count == 0u || contacts[body].pairs[ball_phase] <= PARTNER_BLOCK) return;
 
   Partners of = partners_of(body);
   uint place = kind == KIND_BALL ? i - of.first_a : of.count_a + (i - of.first_b);

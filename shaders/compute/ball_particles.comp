@@ -10,9 +10,9 @@ void main() {
   uint p = item_index();
   if (p >= particle_count || idle()) return;
   uint body = ball_count + p;
-  if (touches[body].listed == 0u) return;
+  if (contacts[body].listed == 0u) return;
   Particle particle = end_particle(p);
-  if (touches[body].pairs[ball_phase] != 0u && particle.position.w != 0.0) {
+  if (contacts[body].pairs[ball_phase] != 0u && particle.position.w != 0.0) {
     Impulse sum = sum_all(seeking_particle(p), body, KERNEL_BALL_PARTICLES);
     precise vec3 change = particle.position.w * sum.linear;
     precise vec3 x = particle.position.xyz, v = particle.velocity.xyz;

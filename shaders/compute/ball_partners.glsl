@@ -14,21 +14,21 @@ struct Partners {
 };
 
 Partners partners_of(uint body) {
-  BallTouches touch = touches[body];
+  BallContacts contact = contacts[body];
   uint own_kind = body < ball_count ? KIND_BALL : KIND_PARTICLE;
   Partners of = Partners(0u, 0u, 0u, 0u, 0u, 0u);
   if (phase_has(own_kind, KIND_BALL)) {
-    if (touch.listed != CROWDED) {
-      of.listed = ball_phase == BALL_PHASE_POSITIONS ? touch.overlapping : touch.acting;
-      of.list = touch.list;
+    if (contact.listed != CROWDED) {
+      of.listed = ball_phase == BALL_PHASE_POSITIONS ? contact.overlapping : contact.acting;
+      of.list = contact.list;
     } else {
-      of.first_a = touch.list;
-      of.count_a = items[touch.list].total;
+      of.first_a = contact.list;
+      of.count_a = items[contact.list].total;
     }
   }
-  if (own_kind == KIND_BALL && ball_phase != BALL_PHASE_BALLS && touch.items != NO_BODY) {
-    of.first_b = touch.items;
-    of.count_b = items[touch.items].total;
+  if (own_kind == KIND_BALL && ball_phase != BALL_PHASE_BALLS && contact.items != NO_BODY) {
+    of.first_b = contact.items;
+    of.count_b = items[contact.items].total;
   }
   return of;
 }

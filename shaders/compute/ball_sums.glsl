@@ -6,10 +6,10 @@
 vec2 share_of(uint kind, uint index) {
   precise vec2 share = vec2(0.0);
   if (kind == KIND_PARTICLE) {
-    share.x = float(touches[ball_count + index].pairs[ball_phase]) * end_particle(index).position.w;
+    share.x = float(contacts[ball_count + index].pairs[ball_phase]) * end_particle(index).position.w;
   } else {
     Ball ball = ball_in(slot_before(ball_phase), index);
-    precise float c = float(touches[index].pairs[ball_phase]);
+    precise float c = float(contacts[index].pairs[ball_phase]);
     share.x = c * ball.velocity.w;
     share.y = c * ball.start_velocity.w;
   }
@@ -88,7 +88,7 @@ Impulse sum_block(Seeker seeker, Partners of, uint k, uint w, uint left, uint ke
 Impulse sum_all(Seeker seeker, uint body, uint kernel) {
   Partners of = partners_of(body);
   Impulse first = sum_block(seeker, of, NO_BODY, 0u, of.listed, kernel);
-  if (touches[body].pairs[ball_phase] <= PARTNER_BLOCK) return first;
+  if (contacts[body].pairs[ball_phase] <= PARTNER_BLOCK) return first;
   precise vec3 linear = first.linear, turning = first.turning;
   uint before = uint(bitCount(of.listed));
   uint rounds = bounded(items_in(of), kernel);

@@ -28,20 +28,20 @@ void tally_word(uint i, uint w) {
   if (acting == 0u) return;
   uint count = uint(bitCount(acting));
   atomicAdd(items[i].acting, count);
-  atomicAdd(touches[body].pairs[BALL_PHASE_PARTICLES], count);
+  atomicAdd(contacts[body].pairs[BALL_PHASE_PARTICLES], count);
 }
 
 void tally_list(uint p) {
-  BallTouches touch = touches[ball_count + p];
-  if (touch.listed == 0u || touch.listed == CROWDED) return;
+  BallContacts contact = contacts[ball_count + p];
+  if (contact.listed == 0u || contact.listed == CROWDED) return;
   Seeker seeker = seeking_particle(p);
   uint acting = 0u;
-  for (uint n = 0u; n < touch.listed; ++n) {
-    uint b = lists[touch.list + n];
+  for (uint n = 0u; n < contact.listed; ++n) {
+    uint b = lists[contact.list + n];
     if (acts(seeker, KIND_BALL, b)) acting |= 1u << n;
   }
-  touches[ball_count + p].acting = acting;
-  touches[ball_count + p].pairs[BALL_PHASE_PARTICLES] = uint(bitCount(acting));
+  contacts[ball_count + p].acting = acting;
+  contacts[ball_count + p].pairs[BALL_PHASE_PARTICLES] = uint(bitCount(acting));
 }
 
 void main() {

@@ -9,7 +9,7 @@ vec4 ball_gap(uint t, uint end, float radius, vec3 x) {
 }
 
 // Friction where the surfaces touch, of a terrain whose normal impulse raised the normal speed by `gain`.
-void rub_ball(uint t, Ball start, BallBody body, float gain, vec3 n, inout precise vec3 v_t,
+void apply_ball_friction(uint t, Ball start, BallBody body, float gain, vec3 n, inout precise vec3 v_t,
               inout precise vec3 omega) {
   precise vec3 s = v_t - start.position.w * cross3(omega, n);
   precise float push = body.ball_mass * gain;
@@ -27,7 +27,7 @@ void respond_ball_course(uint t, Ball start, BallBody body, vec3 x, inout precis
   precise float u_after = bounce_speed(t, body.ball_mass, u);
   precise vec3 v_t = v_r - u * g.xyz;
   precise float gain = u_after - u;
-  if (ball_spin != 0u) rub_ball(t, start, body, gain, g.xyz, v_t, omega);
+  if (ball_spin != 0u) apply_ball_friction(t, start, body, gain, g.xyz, v_t, omega);
   precise vec3 left = v_t + u_after * g.xyz;
   v = absolute_velocity(t, left);
 }
@@ -65,10 +65,10 @@ void respond_ball_coulomb(uint t, Ball start, BallBody body, inout precise vec3 
   if (gain > 0.0) {
     precise vec3 v_t = v_r - u * g.xyz;
     if (ball_spin != 0u) {
-      rub_ball(t, start, body, gain, g.xyz, v_t, omega);
+      apply_ball_friction(t, start, body, gain, g.xyz, v_t, omega);
     } else {
       precise float loss = terrains[t].friction * gain;
-      v_t = rubbed(v_t, loss);
+      v_t = after_friction(v_t, loss);
     }
     precise vec3 left = v_t + u_after * g.xyz;
     v = absolute_velocity(t, left);

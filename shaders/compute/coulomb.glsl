@@ -30,7 +30,7 @@ float least_normal_speed(float d_0) {
 }
 
 // Tangential velocity after friction has taken up to `loss` [m/s] off it.
-vec3 rubbed(vec3 v_t, float loss) {
+vec3 after_friction(vec3 v_t, float loss) {
   precise float slip = norm3(v_t);
   if (!(slip > 0.0)) return v_t;
   precise float kept = 1.0 - exact_div(loss, slip);
@@ -44,7 +44,7 @@ vec3 projected(float friction, vec3 n, float c, vec3 v_1) {
   if (!(u < c)) return v_1;
   precise vec3 v_t = v_1 - u * n;
   precise float loss = friction * (c - u);
-  precise vec3 left = rubbed(v_t, loss) + c * n;
+  precise vec3 left = after_friction(v_t, loss) + c * n;
   return left;
 }
 
@@ -108,7 +108,7 @@ void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, 
   if (u_after > u) {
     precise vec3 v_t = v_r - u * g.xyz;
     precise float loss = terrains[t].friction * (u_after - u);
-    precise vec3 left = rubbed(v_t, loss) + u_after * g.xyz;
+    precise vec3 left = after_friction(v_t, loss) + u_after * g.xyz;
     v = absolute_velocity(t, left);
   }
   precise float rise = undue_rise(g_0.w, u_0, g.w, u_after);

@@ -1,6 +1,6 @@
 // Implicit Euler on the device: a small state machine in the Solve block decides what each dispatch does, so that any
 // number of rounds can be queued and none needs a read-back. A round is evaluate, apply, update, direction, with kernels of
-// contact between bodies around them where these may touch (implicit_touch_*.comp); a step is begin, as many rounds as it
+// contact between bodies around them where these may touch (implicit_contact_*.comp); a step is begin, as many rounds as it
 // takes, finish. Kernels whose phase it is not return at once. Where the ground prescribes a
 // part of δ, a linear system begins with a round that takes A times it to the right-hand side (Solve.prescribing).
 // src/cpu_reference/implicit_euler.h has the method and its source; this follows it operation by operation.
@@ -21,8 +21,8 @@ void set_own4(uint which, uint i, vec4 value) { own_vectors[own_at(which, i)] = 
 // The part of δ that the ground prescribes.
 void prescribe(uint i, vec4 value) {
   set_own4(OWN_PRESCRIBED, i, value);
-#ifdef ASPIC_TOUCH
-  search[TOUCH_AT(TOUCH_PRESCRIBED, i)] = value;
+#ifdef ASPIC_BODY_CONTACT
+  search[CONTACT_AT(CONTACT_PRESCRIBED, i)] = value;
 #endif
 }
 
@@ -41,7 +41,7 @@ vec3 turning(vec4 across, vec3 p) {
   return product;
 }
 
-#ifdef ASPIC_TOUCH
-#include "compute/implicit_touch.glsl"
+#ifdef ASPIC_BODY_CONTACT
+#include "compute/implicit_contact.glsl"
 #endif
 #include "compute/bounded.glsl"

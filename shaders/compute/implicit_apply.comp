@@ -32,8 +32,8 @@ vec4 apply(uint i) {
     linearised_pull(pulls[k], particle.position.xyz, v, H);
     product += times(H, p);
   }
-#ifdef ASPIC_TOUCH
-  if (solve.touching != 0u) product += touch_of(TOUCH_PRODUCT, i);
+#ifdef ASPIC_BODY_CONTACT
+  if (solve.in_contact != 0u) product += contact_of(CONTACT_PRODUCT, i);
 #endif
   precise vec4 ground = own4(OWN_GROUND, i);
   if (ground.w == FREE_PLANE) product += turning(own4(OWN_ACROSS, i), p);

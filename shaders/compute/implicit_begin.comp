@@ -9,8 +9,8 @@
 #include "compute/spring.glsl"
 #include "compute/terrain.glsl"
 
-#ifdef ASPIC_TOUCH
-layout(location = LOCATION_TOUCH_COUNT) uniform uint touch_count;  // encounters
+#ifdef ASPIC_BODY_CONTACT
+layout(location = LOCATION_CONTACT_COUNT) uniform uint contact_count;  // encounters
 #endif
 
 // Gravity, springs and pulls.
@@ -38,7 +38,7 @@ void main() {
   uint phase = enter();
   // The host may have set a new target since the last one was reached.
   if (phase != PHASE_BEGIN && !(phase == PHASE_IDLE && ended_steps != solve.target_step)) return;
-#ifdef ASPIC_TOUCH
+#ifdef ASPIC_BODY_CONTACT
   if (solve.stale != 0u) return;
 #endif
   uint i = item_index();
@@ -47,8 +47,8 @@ void main() {
     Particle p = state(i);
     set_own(OWN_HELD, i, held_contact_force(i, p));
     trial[i] = vec4(p.velocity.xyz, 0.0);
-#ifdef ASPIC_TOUCH
-    if (touch_count > 0u) keep_start(i, p, force(i, p));
+#ifdef ASPIC_BODY_CONTACT
+    if (contact_count > 0u) keep_start(i, p, force(i, p));
 #endif
   }
   precise vec4 total;
@@ -63,9 +63,9 @@ void main() {
   solve.lambda = 1.0;
   solve.first = 1u;
   solve.phase = PHASE_EVALUATE;
-#ifdef ASPIC_TOUCH
-  solve.touching = 0u;
+#ifdef ASPIC_BODY_CONTACT
+  solve.in_contact = 0u;
   solve.again = 0u;
-  if (touch_count > 0u) solve.phase = PHASE_TOUCH;
+  if (contact_count > 0u) solve.phase = PHASE_CONTACT;
 #endif
 }

@@ -10,7 +10,7 @@ void main() {
   if (i >= particle_count) return;
   uint phase = enter();
   // No reduction tells whether this kernel was carried out; the next round looks at the count.
-  bool works = phase == PHASE_CG || phase == PHASE_EVALUATE || phase == PHASE_TOUCH;
+  bool works = phase == PHASE_CG || phase == PHASE_EVALUATE || phase == PHASE_CONTACT;
   if (works && is_counted(i, particle_count)) atomicAdd(solve.moved, 1u);
   if (phase == PHASE_CG) {
     precise vec3 p = own(OWN_Z, i);
@@ -26,7 +26,7 @@ void main() {
     }
     set_own(OWN_BASE, i, base);
     trial[i] = vec4(next, 0.0);
-  } else if (phase == PHASE_TOUCH) {
+  } else if (phase == PHASE_CONTACT) {
     if (solve.use_trial == 0u) trial[i] = vec4(own(OWN_BASE, i), 0.0);
   }
 }

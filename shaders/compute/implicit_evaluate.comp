@@ -61,9 +61,9 @@ vec4 evaluate(uint i) {
     f += linearised_pull(pulls[k], p.position.xyz, v, H);
     block = with_spring(block, H);
   }
-#ifdef ASPIC_TOUCH
-  if (solve.touching != 0u) {
-    precise vec3 diagonal = block.diagonal + touch_of(TOUCH_DIAGONAL, i), mixed = block.mixed + touch_of(TOUCH_MIXED, i);
+#ifdef ASPIC_BODY_CONTACT
+  if (solve.in_contact != 0u) {
+    precise vec3 diagonal = block.diagonal + contact_of(CONTACT_DIAGONAL, i), mixed = block.mixed + contact_of(CONTACT_MIXED, i);
     block = DiagonalBlock(diagonal, mixed);
   }
 #endif
@@ -73,8 +73,8 @@ vec4 evaluate(uint i) {
   Reaction reaction = no_reaction(v);
   if (p.position.w != 0.0) {
     precise vec3 held = own(OWN_HELD, i);
-#ifdef ASPIC_TOUCH
-    if (solve.touching != 0u) held = held + touch_of(TOUCH_FORCE, i);
+#ifdef ASPIC_BODY_CONTACT
+    if (solve.in_contact != 0u) held = held + contact_of(CONTACT_FORCE, i);
 #endif
     precise vec3 all_forces = f + held;
     precise vec3 change = v - p.velocity.xyz;
@@ -101,7 +101,7 @@ vec4 evaluate(uint i) {
 void main() {
   uint phase = enter();
   uint i = item_index();
-  bool evaluates = phase == PHASE_EVALUATE || phase == PHASE_TOUCH;
+  bool evaluates = phase == PHASE_EVALUATE || phase == PHASE_CONTACT;
   if (i == 0u && (evaluates || phase == PHASE_CG)) {
     if (solve.moved != solve.ticks * COUNTED_OF(particle_count)) report_overrun(ITEMS_MISSING);
     ++solve.ticks;

@@ -103,7 +103,7 @@ void respond_solved(uint t, float m, bool held, vec3 x_0, vec3 v_0, inout precis
       if (u_after > u) {
         precise vec3 v_t = v_r - u * g.xyz;
         precise float loss = terrains[t].friction * (u_after - u);
-        precise vec3 left = rubbed(v_t, loss) + u_after * g.xyz;
+        precise vec3 left = after_friction(v_t, loss) + u_after * g.xyz;
         v = absolute_velocity(t, left);
       }
     }

@@ -5,13 +5,13 @@ void end_solve(uint how, uint use_trial) {
   solve.end = how;
   solve.use_trial = use_trial;
   solve.phase = PHASE_DONE;
-  if (solve.touching == 0u || solve.again != 0u) return;
-  solve.touching = 0u;
+  if (solve.in_contact == 0u || solve.again != 0u) return;
+  solve.in_contact = 0u;
   solve.again = 1u;
   solve.first = 3u;
   solve.first_newton = solve.newton;
   solve.without_progress = 0u;
-  solve.phase = PHASE_TOUCH;
+  solve.phase = PHASE_CONTACT;
 }
 
 // Eisenstat and Walker's forcing term from the ratio of two successive square sums of residuals.

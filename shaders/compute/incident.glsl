@@ -61,7 +61,7 @@ Walk walk(uint i) {
 #ifdef ASPIC_LISTED
   if (l == lattice_count || i < lattices[l].first_particle) return walk_words(place);
 #endif
-  Lattice lattice = lattices[l];
+  GpuLattice lattice = lattices[l];
   uvec3 size = size_of(lattice);
   uint steps = steps_from(place_in(size, i - lattice.first_particle), size);
   // A bound that compilers cannot see: with a constant, NVIDIA's unrolls the walk and takes seconds.

@@ -26,7 +26,7 @@ void main() {
   uint run = item_index();
   uint l = lattice_of(run);
   if (l == lattice_count || halted()) return;
-  Lattice lattice = lattices[l];
+  GpuLattice lattice = lattices[l];
   uvec3 size = size_of(lattice);
   uint at = run * ASPIC_LATTICE_RUN;
   int first_of_lattice = int(lattice.first_particle);

@@ -1,6 +1,6 @@
 // Lattices whose springs follow from the particles' indices, and the particles whose springs are listed.
-uvec3 size_of(Lattice lattice) { return uvec3(lattice.planes, lattice.rows, lattice.row_size); }
-uint particles_of(Lattice lattice) { return lattice.planes * lattice.rows * lattice.row_size; }
+uvec3 size_of(GpuLattice lattice) { return uvec3(lattice.planes, lattice.rows, lattice.row_size); }
+uint particles_of(GpuLattice lattice) { return lattice.planes * lattice.rows * lattice.row_size; }
 
 // The particle at this place among those whose springs are listed.
 uint listed_particle(uint place) {

@@ -41,15 +41,15 @@
 #define OWN_VECTORS 11u
 
 // Contact of bodies in implicit Euler: arrays over particles behind that of the search directions.
-#define TOUCH_START_FORCE 0u     // gravity, springs and pulls where the step begins [N]; w: inverse mass [1/kg]
-#define TOUCH_START_VELOCITY 1u  // there [m/s]
-#define TOUCH_FORCE 2u           // of contacts at the trial [N]
-#define TOUCH_DIAGONAL 3u        // their part of the diagonal block: xx, yy, zz [kg]
-#define TOUCH_MIXED 4u           // xy, xz, yz [kg]
-#define TOUCH_PRODUCT 5u         // of their matrix with the direction [kg·m/s]
-#define TOUCH_PRESCRIBED 6u      // as OWN_PRESCRIBED
-#define TOUCH_VECTORS 7u
-#define TOUCH_AT(which, i) (((which) + 1u) * particle_count + (i))
+#define CONTACT_START_FORCE 0u     // gravity, springs and pulls where the step begins [N]; w: inverse mass [1/kg]
+#define CONTACT_START_VELOCITY 1u  // there [m/s]
+#define CONTACT_FORCE 2u           // of contacts at the trial [N]
+#define CONTACT_DIAGONAL 3u        // their part of the diagonal block: xx, yy, zz [kg]
+#define CONTACT_MIXED 4u           // xy, xz, yz [kg]
+#define CONTACT_PRODUCT 5u         // of their matrix with the direction [kg·m/s]
+#define CONTACT_PRESCRIBED 6u      // as OWN_PRESCRIBED
+#define CONTACT_VECTORS 7u
+#define CONTACT_AT(which, i) (((which) + 1u) * particle_count + (i))
 
 // What the ground leaves a particle: Freedom in src/cpu_reference/implicit_ground.h.
 #define FREE_ALL 0.0
@@ -72,7 +72,7 @@
 #define PHASE_BEGIN 1u     // a step begins
 #define PHASE_EVALUATE 2u  // the residual at the trial is wanted
 #define PHASE_CG 3u        // a linear system is being solved
-#define PHASE_TOUCH 7u     // the same, and before it contacts of bodies are looked for
+#define PHASE_CONTACT 7u     // the same, and before it contacts of bodies are looked for
 #define PHASE_BALLS 6u     // the particles' step has ended, the balls' has not
 #define PHASE_DONE 4u      // v' is found: the step can end
 #define PHASE_HALTED 5u    // the step diverged: nothing moves any more
@@ -83,8 +83,8 @@
 #define LOCATION_BALL_PARITY 2  // explicit methods: slot of the balls' state at the start of the step
 #define LOCATION_BALL_PHASE 3   // BALL_PHASE_…
 #define LOCATION_BALL_KIND 4    // KIND_… of the candidates that a dispatch looks at
-#define LOCATION_TOUCH_COUNT 7  // encounters, or particles, of a dispatch
-#define LOCATION_TOUCH_NUMBER 8  // seconds since the initial state, or the square of a way [m²]
+#define LOCATION_CONTACT_COUNT 7  // encounters, or particles, of a dispatch
+#define LOCATION_CONTACT_NUMBER 8  // seconds since the initial state, or the square of a way [m²]
 
 // Of the items of a pass, each COUNTED_ITEMS-th and the last count themselves, so that a device which drops some is found out.
 #define COUNTED_ITEMS 4096u
@@ -156,7 +156,7 @@ struct BallBody {
 };
 
 // Whom a body touches in a step: balls in a list or, if it is crowded, in items; a ball's particles in items.
-struct BallTouches {
+struct BallContacts {
   uint pairs[3];     // acting or overlapping pairs in each phase
   uint listed;       // length of its list, or CROWDED
   uint list;         // where it begins in the lists; crowded: its first item, of as many as there are blocks of balls
@@ -197,7 +197,7 @@ struct BallWork {
 // Pairs of a particle that are sorted by itself; with more, it asks all balls.
 #define FACE_LIST_SIZE 32u
 // Flags of a pair.
-#define FACE_TOUCHES 1u  // there is one
+#define FACE_CONTACTS 1u  // there is one
 #define FACE_WITHIN 2u   // its place is within the face, not on an edge
 
 // A ball and the nearest face of a body.
@@ -219,24 +219,24 @@ struct BallFaceCount {
 };
 
 // A first contact and one of each other side of a body: at most so many sides may a body have.
-#define TOUCH_SIDES 6u
-#define TOUCH_RECORDS 6u
+#define CONTACT_SIDES 6u
+#define CONTACT_RECORDS 6u
 // Flags of an encounter.
-#define TOUCH_CLOSED 1u    // the triangles' body has an inside
-#define TOUCH_OPPOSING 2u  // only faces that turn to the point count
+#define CONTACT_CLOSED 1u    // the triangles' body has an inside
+#define CONTACT_OPPOSING 2u  // only faces that turn to the point count
 
-// A point and triangles of one body near it, in src/gpu_solver/touch_lists.h.
-struct TouchEncounter {
+// A point and triangles of one body near it, in src/gpu_solver/contact_lists.h.
+struct ContactCandidates {
   uint carrier0, carrier1;  // particles that carry the point, twice the same of a particle's own
-  uint flags;               // TOUCH_…
+  uint flags;               // CONTACT_…
   uint near_first;          // triangles near it, in the words
   uint near_count;
   uint normals_first0, normals_count0;  // triangles at the carriers, likewise
   uint normals_first1, normals_count1;
   float carrier_weight0, carrier_weight1;
   float start_distance;  // d₀ in the initial state where they overlapped [m], else far above ρ
-  float touch_stiffness;  // k [N/m]
-  float touch_damping;    // c [N·s/m]
+  float contact_stiffness;  // k [N/m]
+  float contact_damping;    // c [N·s/m]
   float spacing;          // s [m]
   float reach;            // ρ [m]
   float depth;            // D [m]
@@ -244,13 +244,13 @@ struct TouchEncounter {
   float margin;           // by which boxes of candidates are widened [m]
   float tie;              // distances that differ by less are equal [m]
   float sight;            // up to where contacts are found [m]: ρ, or more in implicit Euler
-  float touch_friction;   // μ
+  float contact_friction;   // μ
 };
 
 // A contact.
-struct TouchRecord {
-  vec4 normal;   // n; w: push f [N]
-  vec4 rub;      // friction on the point [N]; w: the push, were there no motion [N]
+struct ContactRecord {
+  vec4 normal;   // n; w: normal force f [N]
+  vec4 friction;  // on the point [N]; w: normal force without motion [N]
   uvec4 corner;  // particles; w: contacts of the encounter, in its first record
   vec4 share;    // weights of the corners; w: unused
   vec4 answer;   // implicit Euler, at the trial: force on the point [N], then its matrix times a direction; w: along n [kg]
@@ -258,13 +258,13 @@ struct TouchRecord {
 };
 
 // A particle that contacts may name: as a carrier of points, and as a corner.
-struct TouchParticle {
+struct ContactParticle {
   uint listed;       // which
   uint own_first;    // encounters of its points, in the words
   uint own_count;
   uint visit_first;  // encounters with triangles at it, likewise
   uint visit_count;
-  uint touch_padding0, touch_padding1, touch_padding2;
+  uint contact_padding0, contact_padding1, contact_padding2;
 };
 
 // One stage of an explicit method, see src/model/integrator.h.
@@ -355,7 +355,7 @@ struct Solve {
   uint full;          // 1: the balls' contacts found no room; their part of the step has to be repeated with more
   uint overrun;       // as in Control, or ITEMS_MISSING
   uint moved;         // items of the kernel direction that counted themselves in this step
-  uint touching;      // 1: bodies are near each other in this step
+  uint in_contact;      // 1: bodies are near each other in this step
   uint again;         // 1: the step's second solve, with what touches where the first one ended
   uint stale;         // as in Control: the step has to wait for other lists
   uint first_newton;  // iterations of the first solve

@@ -7,9 +7,9 @@
 
 layout(std430, binding = BINDING_START_STATE) restrict readonly buffer StartState { Particle start_state[]; };
 layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageState { Particle stage_state[]; };
-// With ASPIC_TOUCH contact between bodies comes between pulls and ground: the kernel of forces leaves them in the place of
-// the next velocity, from where touch_finish.comp, with ASPIC_TOUCH_FINISH, goes on.
-#ifdef ASPIC_TOUCH_FINISH
+// With ASPIC_BODY_CONTACT contact between bodies comes between pulls and ground: the kernel of forces leaves them in the place of
+// the next velocity, from where contact_finish.comp, with ASPIC_BODY_CONTACT_FINISH, goes on.
+#ifdef ASPIC_BODY_CONTACT_FINISH
 layout(std430, binding = BINDING_OUT_STATE) restrict buffer OutState { Particle out_state[]; };
 #else
 layout(std430, binding = BINDING_OUT_STATE) restrict writeonly buffer OutState { Particle out_state[]; };
@@ -72,7 +72,7 @@ void end_stage(uint i, Particle p, vec3 f_in) {
 void finish_stage(uint i, Particle p, vec3 f_springs) {
   count_item(i, particle_count);
   precise vec3 f = with_pulls(i, p.position.xyz, p.velocity.xyz, f_springs);
-#ifdef ASPIC_TOUCH
+#ifdef ASPIC_BODY_CONTACT
   out_state[i] = Particle(p.position, vec4(f, p.velocity.w));
 #else
   end_stage(i, p, f);

@@ -24,7 +24,7 @@ float bounce_speed(uint t, float m, float u) {
 
 #include "compute/coulomb.glsl"
 
-// The course model's contact force: f [N] on a body with gap g and velocity v, resisted and rubbed by one terrain, which
+// The course model's contact force: f [N] on a body with gap g and velocity v, resisted and after_friction by one terrain, which
 // is where it is at the step's start.
 vec3 resisted(uint t, vec4 g, vec3 v_in, vec3 f_in) {
   precise vec3 f = f_in;

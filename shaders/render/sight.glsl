@@ -1,4 +1,4 @@
-// Sight lines: from the eye, or all parallel in an orthographic picture, whose eye is far away.
+// ClosestPoint lines: from the eye, or all parallel in an orthographic picture, whose eye is far away.
 
 // Unit, from a point of the world towards the eye.
 vec3 to_eye(vec3 position) { return normalize(viewer.xyz - viewer.w * position); }

@@ -26,18 +26,18 @@
 #define BINDING_BALLS 2         // Ball[BALL_SLOTS · balls]
 #define BINDING_BALL_BODIES 3   // BallBody[balls]
 #define BINDING_BALL_ITEMS 3    // BallItem[], in every ball kernel but flight
-#define BINDING_BALL_TOUCHES 4  // BallTouches[balls + particles]
+#define BINDING_BALL_CONTACTS 4  // BallContacts[balls + particles]
 #define BINDING_BALL_GRID 5     // uint[buckets + balls + balls · mark words]: heads of lists, their links, marks
 #define BINDING_BALL_WORK 7     // BallWork, then uint[]: the short lists of partners
 // Of the kernels of contact between bodies; the step's start and the stage as in the explicit kernels, OUT_STATE with
 // forces in the place of velocities.
-#define BINDING_TOUCH_LISTED 1      // TouchParticle[]: particles that contacts may name
-#define BINDING_TOUCH_PLACES 3      // uvec4[]: bits of where particles were when lists were made; w: which particle
-#define BINDING_TOUCH_TRIANGLES 3   // uvec4[]: corners; w: side
-#define BINDING_TOUCH_VALUES 3      // vec4[particles]: v₁ [m/s]; w: S [N]
-#define BINDING_TOUCH_ENCOUNTERS 4  // TouchEncounter[]
-#define BINDING_TOUCH_WORDS 5       // uint[]: lists of triangles and of encounters
-#define BINDING_TOUCH_RECORDS 7     // TouchRecord[TOUCH_RECORDS · encounters]
+#define BINDING_CONTACT_LISTED 1      // ContactParticle[]: particles that contacts may name
+#define BINDING_CONTACT_PLACES 3      // uvec4[]: bits of where particles were when lists were made; w: which particle
+#define BINDING_CONTACT_TRIANGLES 3   // uvec4[]: corners; w: side
+#define BINDING_CONTACT_VALUES 3      // vec4[particles]: v₁ [m/s]; w: S [N]
+#define BINDING_CONTACT_ENCOUNTERS 4  // ContactCandidates[]
+#define BINDING_CONTACT_WORDS 5       // uint[]: lists of triangles and of encounters
+#define BINDING_CONTACT_RECORDS 7     // ContactRecord[CONTACT_RECORDS · encounters]
 // Of the kernels that prepare a picture; springs and balls as above.
 #define BINDING_PARTICLES 0   // Particle[]
 #define BINDING_FAN_START 1   // uint[surface vertices + 1]: where each vertex's fan begins
@@ -113,7 +113,7 @@ struct Direction {
 };
 
 // Particles of a lattice whose cells are all full, along i, j and k: their springs are not in memory.
-struct Lattice {
+struct GpuLattice {
   uint first_particle;
   uint first_class;
   uint planes;    // along i
@@ -152,7 +152,7 @@ layout(std140, binding = BINDING_LATTICES) uniform Lattices {
   uint unlisted_count;
   uint lattices_padding;
   Direction directions[LATTICE_DIRECTIONS];
-  Lattice lattices[MAX_LATTICES];  // in ascending order of particles, as those that follow
+  GpuLattice lattices[MAX_LATTICES];  // in ascending order of particles, as those that follow
   Unlisted unlisted[2 * MAX_LATTICES];
 };
 

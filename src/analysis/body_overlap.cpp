@@ -34,8 +34,8 @@ std::size_t stride_of(std::size_t count, std::size_t most) {
 /// A closed surface in space.
 class Skin {
  public:
-  Skin(std::span<const TouchTriangle> triangles, const State& state) {
-    for (const TouchTriangle& t : triangles) {
+  Skin(std::span<const SurfaceTriangle> triangles, const State& state) {
+    for (const SurfaceTriangle& t : triangles) {
       const auto x = [&](std::size_t n) { return physics::rounded<double>(state.position[t.corner[n]]); };
       faces_.push_back({x(0), x(1), x(2)});
     }
@@ -123,12 +123,12 @@ BodyOverlap& pair_of(DeepPoints::Found& overlaps, std::uint32_t a, std::uint32_t
 }  // namespace
 
 DeepPoints::DeepPoints(const Model& model) : contact_(model.contact) {
-  if (model.contact.bodies && bodies_touch(model)) surfaces_ = touch_surfaces(model);
+  if (model.contact.bodies && has_body_contact(model)) surfaces_ = contact_surfaces(model);
 }
 
 DeepPoints::Boxes DeepPoints::boxes_of(const State& state) const {
   Boxes boxes;
-  for (const TouchBody& body : surfaces_.bodies) {
+  for (const ContactBody& body : surfaces_.bodies) {
     Box& box = boxes.emplace_back(Box{{no_bound, no_bound, no_bound}, {-no_bound, -no_bound, -no_bound}});
     for (std::uint32_t p = body.first_point; p < body.first_point + body.surface_particles; ++p) {
       const Vec3& x = state.position[surfaces_.points[p].carrier[0]];
@@ -148,7 +148,7 @@ std::vector<BodyOverlap> DeepPoints::listed(const Found& found) {
 }
 
 double DeepPoints::depth(std::uint32_t a, std::uint32_t b) const {
-  return touch_pair(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false).depth;
+  return contact_pair(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false).depth;
 }
 
 /// Whether a point of a may be deeper than D in b: what is deeper than that is as deep in the box of b.
@@ -164,7 +164,7 @@ bool DeepPoints::near(const Boxes& boxes, std::uint32_t a, std::uint32_t b) cons
 
 void DeepPoints::take(const State& state, const Boxes& boxes, std::uint32_t a, std::uint32_t b,
                       DeepPoints::Found& found) const {
-  const TouchBody &points = surfaces_.bodies[a], &faces = surfaces_.bodies[b];
+  const ContactBody &points = surfaces_.bodies[a], &faces = surfaces_.bodies[b];
   const double D = depth(a, b);
   std::vector<Vector> candidates;
   for (std::uint32_t p = points.first_point; p < points.first_point + points.surface_particles; ++p) {
@@ -197,21 +197,21 @@ double deepest_within(const Skin& skin, const std::vector<Vector>& places) {
 
 /// Particles of one body within another, those inside of it, too: where bodies are nearly in one place, all
 /// points of their surfaces are next to faces that turn the same way, which push nothing.
-void add_particles_within(const Model& model, const State& state, const TouchSurfaces& surfaces,
+void add_particles_within(const Model& model, const State& state, const ContactSurfaces& surfaces,
                           DeepPoints::Found& overlaps) {
   std::vector<Eigen::AlignedBox3d> boxes;
   const auto place = [&](std::size_t p) { return physics::rounded<double>(state.position[p]); };
-  const auto for_particles = [&](const TouchBody& of, const auto& use) {
+  const auto for_particles = [&](const ContactBody& of, const auto& use) {
     const Body& body = model.bodies[of.body];
     for (std::size_t n = 0; n < body.particle_count; ++n) use(place(body.first_particle + n));
   };
-  for (const TouchBody& each : surfaces.bodies) {
+  for (const ContactBody& each : surfaces.bodies) {
     Eigen::AlignedBox3d& box = boxes.emplace_back();
     for_particles(each, [&](const Vector& x) { box.extend(x); });
   }
   std::vector<std::optional<Skin>> skins(surfaces.bodies.size());
   const auto add = [&](std::size_t a, std::size_t b) {
-    const TouchBody &points = surfaces.bodies[a], &faces = surfaces.bodies[b];
+    const ContactBody &points = surfaces.bodies[a], &faces = surfaces.bodies[b];
     if (points.body == faces.body || !faces.closed) return;
     std::vector<Vector> places;
     for_particles(points, [&](const Vector& x) {
@@ -224,7 +224,7 @@ void add_particles_within(const Model& model, const State& state, const TouchSur
     const double deepest = deepest_within(*skins[b], places);
     if (!(deepest > 0.0)) return;
     BodyOverlap& overlap = pair_of(overlaps, points.body, faces.body);
-    overlap.most = std::max(overlap.most, touch_pair(model.contact, points, faces, false).eased_depth);
+    overlap.most = std::max(overlap.most, contact_pair(model.contact, points, faces, false).eased_depth);
     overlap.deepest = std::max(overlap.deepest, deepest);
   };
   // Along x: of many bodies few are beside each other.
@@ -270,12 +270,12 @@ std::vector<std::uint32_t> outside_crowds(const Model& model, const State& state
 }  // namespace
 
 bool has_crowd(const Model& model, const State& state) {
-  return model.contact.bodies && bodies_touch(model) &&
+  return model.contact.bodies && has_body_contact(model) &&
          outside_crowds(model, state).size() < model.bodies.size();
 }
 
 std::vector<BodyOverlap> overlaps_of(const Model& all, const State& state) {
-  if (!all.contact.bodies || !bodies_touch(all)) return {};
+  if (!all.contact.bodies || !has_body_contact(all)) return {};
   const std::vector<std::uint32_t> chosen = outside_crowds(all, state);
   std::optional<Model> few;
   if (chosen.size() < all.bodies.size()) {
@@ -284,38 +284,35 @@ std::vector<BodyOverlap> overlaps_of(const Model& all, const State& state) {
     for (const std::uint32_t b : chosen) few->bodies.push_back(all.bodies[b]);
   }
   const Model& model = few ? *few : all;
-  const TouchSurfaces surfaces = touch_surfaces(model);
+  const ContactSurfaces surfaces = contact_surfaces(model);
   DeepPoints::Found overlaps;
   for (const BodyOverlap& each :
        DeepPoints(model).find(state, [](std::uint32_t, std::uint32_t) { return false; }))
     pair_of(overlaps, each.a, each.b) = each;
   using Contact = collision::ContactSearch<double>;
-  Contact contact(model);
+  Contact search(model);
   const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
   const Contact::Particles at = {physics::components(x.data()), physics::components(v.data()), 3};
-  if (contact.begin_step(state.step, at)) contact.find(at);
-  const auto body_at = [&](std::uint32_t number, std::uint32_t TouchBody::*first) -> const TouchBody& {
-    return *(std::ranges::upper_bound(surfaces.bodies, number, {}, first) - 1);
-  };
+  if (search.begin_step(state.step, at)) search.find(at);
   std::map<std::uint32_t, std::unique_ptr<Skin>> skins;  // by body
-  for (const auto& touch : contact.touches()) {
-    const TouchBody &points = body_at(touch.point, &TouchBody::first_point),
-                    &faces = body_at(touch.triangle, &TouchBody::first_triangle);
+  for (const auto& contact : search.contacts()) {
+    const ContactBody &points = surfaces.bodies[surfaces.body_of_point(contact.point)],
+                      &faces = surfaces.bodies[surfaces.body_of_triangle(contact.triangle)];
     if (points.body == faces.body) continue;
-    const TouchPair pair = touch_pair(model.contact, points, faces, false);
+    const ContactPair pair = contact_pair(model.contact, points, faces, false);
     BodyOverlap& overlap = pair_of(overlaps, points.body, faces.body);
     overlap.most = std::max(overlap.most, pair.eased_depth);
-    if (touch.d < 0.0) {
+    if (contact.d < 0.0) {
       // The rule's face is the nearest of those that turn to the point; another may be nearer.
       auto& skin = skins[faces.body];
       if (!skin)
         skin = std::make_unique<Skin>(
             std::span(surfaces.triangles).subspan(faces.first_triangle, faces.triangle_count), state);
       const Vector P = physics::over_carriers<double>(
-          touch, [&](std::uint32_t place) { return Vector(at.position(contact.particles()[place])); });
-      overlap.deepest = std::max(overlap.deepest, skin->distance(P, -touch.d));
+          contact, [&](std::uint32_t place) { return Vector(at.position(search.particles()[place])); });
+      overlap.deepest = std::max(overlap.deepest, skin->distance(P, -contact.d));
     }
-    const double near = std::max(pair.reach - touch.d, 0.0);
+    const double near = std::max(pair.reach - contact.d, 0.0);
     overlap.energy += 0.5 * pair.stiffness * near * near;
   }
   add_particles_within(model, state, surfaces, overlaps);

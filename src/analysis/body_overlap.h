@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/contact_surface.h"
 #include "model/model.h"
-#include "model/touch_surface.h"
 
 namespace aspic {
 
@@ -52,7 +52,7 @@ class DeepPoints {
   void take(const State& state, const Boxes& boxes, std::uint32_t a, std::uint32_t b, Found& found) const;
   double depth(std::uint32_t a, std::uint32_t b) const;
 
-  TouchSurfaces surfaces_;
+  ContactSurfaces surfaces_;
   ContactSettings contact_;
 };
 

@@ -16,7 +16,7 @@ Course::Course(const Model& model) : model_(model), meter_(model), up_{0.0, 1.0,
   if (const double g = length(gravity); g > 0.0) up_ = -gravity / g;
 }
 
-bool Course::touches(const State& state) const {
+bool Course::contacts(const State& state) const {
   for (const Terrain& terrain : model_.terrain) {
     const Terrain now = terrain_at(terrain, model_.simulation.timestep, state.step);
     const auto near = [&](const Vec3& x, double radius) {
@@ -60,7 +60,7 @@ void Course::take(const State& state) {
     }
     sample.extent = top - bottom;
   }
-  if (!contact_time_ && touches(state)) {
+  if (!contact_time_ && contacts(state)) {
     contact_time_ = sample.time;
     contact_centre_ = centre;
   }

@@ -44,7 +44,7 @@ class Course {
   CourseSummary summary() const;
 
  private:
-  bool touches(const State& state) const;
+  bool contacts(const State& state) const;
 
   const Model& model_;
   Meter meter_;

@@ -73,7 +73,7 @@ Measures Meter::measure(const State& state, const Inputs& inputs) {
     if (c.cord && stretch < 0.0) continue;
     m.elastic += 0.5 * c.stiffness * stretch * stretch;
   }
-  if (bodies_touch(model)) {
+  if (has_body_contact(model)) {
     m.contact = parts_->push_energy(state);
     m.elastic += *m.contact;
   }

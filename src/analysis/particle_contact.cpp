@@ -15,14 +15,15 @@ using Vector = physics::Vector<double>;
 }  // namespace
 
 std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder& springs, const State& state,
-                                         const Inputs& inputs, const TouchForces* bodies) {
+                                         const Inputs& inputs, const BodyContactForces* bodies) {
   assert(check_sizes(model, state));
   const physics::ContactConstants<double> constants(model);
   std::vector<Ground<double>> grounds(model.terrain.begin(), model.terrain.end());
   for (Ground<double>& ground : grounds) ground.begin_step(model.simulation.timestep, state.step);
   const auto back = [](const Vector& a) { return Vec3{a.x(), a.y(), a.z()}; };
   std::vector<ParticleContact> contacts;
-  const std::span<const TouchForce> touched = bodies ? bodies->forces() : std::span<const TouchForce>();
+  const std::span<const BodyContactForce> touched =
+      bodies ? bodies->forces() : std::span<const BodyContactForce>();
   auto next = touched.begin();
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
     const double w = inverse_mass_of(model, inputs, i);

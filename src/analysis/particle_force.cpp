@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "analysis/body_contact_forces.h"
 #include "analysis/contact_force.h"
-#include "analysis/touch_forces.h"
 #include "model/counts.h"
 #include "model/inputs.h"
 #include "model/springs.h"
@@ -50,7 +50,7 @@ std::vector<Spring> SpringFinder::of(const Model& model, std::uint32_t particle)
 }
 
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
-                             std::uint32_t particle, const Inputs& inputs, const TouchForces* bodies) {
+                             std::uint32_t particle, const Inputs& inputs, const BodyContactForces* bodies) {
   using Vector = physics::Vector<double>;
   assert(check_sizes(model, state) && particle < model.particle_count());
   const auto exact = [](const Vec3& v) { return physics::rounded<double>(v); };

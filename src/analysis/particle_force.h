@@ -23,7 +23,7 @@ class SpringFinder {
   std::uint32_t widest_ = 0;  // largest b − a
 };
 
-class TouchForces;
+class BodyContactForces;
 
 /// Forces on one particle at a state [N] (docs/physics.md, sections 1 and 5).
 struct ParticleForce {
@@ -43,7 +43,7 @@ struct ParticleForce {
 /// those of the solver (Solver::inputs()). `bodies`: found at this state with these inputs; null: none touch.
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
                              std::uint32_t particle, const Inputs& inputs = {},
-                             const TouchForces* bodies = nullptr);
+                             const BodyContactForces* bodies = nullptr);
 
 /// Forces on one ball at a state [N]: gravity and pulls, which are all of `net`; terrain, particles and
 /// other balls act by impulses. The state must have the model's numbers; `ball` is one of them; `inputs`

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "analysis/amplification.h"
+#include "analysis/contact_facts.h"
 #include "analysis/spectrum.h"
-#include "analysis/touch_facts.h"
 #include "model/springs.h"
 
 namespace aspic {
@@ -248,9 +248,9 @@ struct Added {
 /// By the first particle of each body that may touch another, or itself.
 std::map<std::uint32_t, Added> added_by_contact(const Model& model, Meeting meeting) {
   const double share = meeting == Meeting::edges ? 12.0 : 4.0;
-  const TouchFacts facts = touch_facts(model);
+  const ContactFacts facts = contact_facts(model);
   std::map<std::uint32_t, Added> added;
-  for (const TouchPairing& pairing : facts.pairings)
+  for (const ContactPairing& pairing : facts.pairings)
     for (const std::size_t kind : {pairing.a, pairing.b})
       for (const std::uint32_t b : facts.kinds[kind].bodies) {
         const double w = share / facts.kinds[kind].body.mass;
@@ -273,7 +273,7 @@ bool same_springs(const Model& model, const Body& a, const Body& b) {
   return true;
 }
 
-StabilityLimit touching_limit(BodyAnalysis& analysis, const Added& added, Integrator integrator) {
+StabilityLimit contact_limit(BodyAnalysis& analysis, const Added& added, Integrator integrator) {
   const StabilityLimit free = body_limit(analysis, integrator);
   if (!(added.kappa > 0.0) || row_of(integrator).traits.stable_at_any_step || !free.step || *free.step == 0.0)
     return free;
@@ -288,9 +288,9 @@ StabilityLimit touching_limit(BodyAnalysis& analysis, const Added& added, Integr
 
 }  // namespace
 
-std::vector<StabilityLimit> touching_limits(const Model& model, std::span<const Integrator> integrators,
-                                            Meeting meeting, StabilityEffort effort,
-                                            const StabilityWatch& watch) {
+std::vector<StabilityLimit> contact_limits(const Model& model, std::span<const Integrator> integrators,
+                                           Meeting meeting, StabilityEffort effort,
+                                           const StabilityWatch& watch) {
   std::vector<StabilityLimit> limits(integrators.size(), StabilityLimit{infinity, true});
   const Effort& means = effort == StabilityEffort::quick ? quick : thorough;
   WorkBudget work(means.evaluations, watch);
@@ -301,7 +301,7 @@ std::vector<StabilityLimit> touching_limits(const Model& model, std::span<const 
   const auto take = [&](LinearisedBody body, const Added& with) {
     BodyAnalysis analysis(std::move(body), means, work);
     for (std::size_t i = 0; i < integrators.size(); ++i)
-      limits[i] = smaller(limits[i], touching_limit(analysis, with, integrators[i]));
+      limits[i] = smaller(limits[i], contact_limit(analysis, with, integrators[i]));
   };
   for (const auto& [first, count] : runs_of(model)) {
     const auto found = added.find(first);

@@ -68,7 +68,7 @@ StateQuantities quantities_of(const Model& model, const State& state, const Inpu
   q.contact_force.resize(count);
   q.contact.resize(count);
   const SpringFinder springs(model);
-  const TouchForces bodies(model, springs, state, inputs);
+  const BodyContactForces bodies(model, springs, state, inputs);
   for (const ParticleContact& c : contacts_of(model, springs, state, inputs, &bodies)) {
     q.contact[c.particle] = 1;
     q.contact_force[c.particle] = q.contact_force[c.particle] + c.force;

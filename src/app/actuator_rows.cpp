@@ -68,7 +68,7 @@ void name_boxes(Gui& gui, SceneControl& scene, const char* path, std::size_t i, 
 }
 
 /// The number that an actuator takes from the inputs, from the next step on.
-void input_now(Gui& gui, Simulation& simulation, const std::string& name, std::size_t i) {
+void input_now(Gui& gui, PlaybackSession& simulation, const std::string& name, std::size_t i) {
   const Inputs inputs = simulation.inputs();
   const std::vector<std::string> names = input_names(simulation.model());
   const auto channel = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
@@ -83,7 +83,7 @@ void input_now(Gui& gui, Simulation& simulation, const std::string& name, std::s
 }
 
 /// True if it was removed.
-bool actuator(Gui& gui, SceneControl& scene, Simulation& simulation, const SettingsList& list,
+bool actuator(Gui& gui, SceneControl& scene, PlaybackSession& simulation, const SettingsList& list,
               std::size_t i) {
   if (element_line(gui, fmt::format("actuator {}", i), fmt::format("actuator/{}/remove", i),
                    "Removes this actuator; the bodies stay.\n\nScene key: [[actuator]]", true)) {
@@ -126,7 +126,7 @@ void add_actuator_button(Gui& gui, SceneControl& scene, std::string_view key, st
   });
 }
 
-void actuators_of_bodies(Gui& gui, SceneControl& scene, Simulation& simulation) {
+void actuators_of_bodies(Gui& gui, SceneControl& scene, PlaybackSession& simulation) {
   const SettingsList* const list = actuators();
   if (!list) return;
   for (std::size_t i = 0; i < list->size(scene.scene().model); ++i)

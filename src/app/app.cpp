@@ -24,7 +24,7 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   ASPIC_TRY(auto editor, SceneEditor::open(options.scene, options.overrides));
   const BackendRow& backend =
       options.backend ? *options.backend : *choose_automatically(options.asked, &context).row;
-  ASPIC_TRY(auto simulation, Simulation::create(context, editor.scene(), backend, options.asked));
+  ASPIC_TRY(auto simulation, PlaybackSession::create(context, editor.scene(), backend, options.asked));
   std::unique_ptr<App> app(new App(options, std::move(editor), std::move(simulation)));
   ASPIC_CHECK(app->attach(context, scale, std::move(services)));
   if (const auto& state = app->scene.editor().state()) {
@@ -40,7 +40,7 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   return app;
 }
 
-App::App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulation> own)
+App::App(const AppOptions& options, SceneEditor editor, std::unique_ptr<PlaybackSession> own)
     : simulation_(std::move(own)),
       commands_(make_commands()),
       watcher_(options.watcher),

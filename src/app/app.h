@@ -22,7 +22,7 @@
 #include "app/scene_picture.h"
 #include "app/view.h"
 #include "app/window.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 #include "playback/stability_map.h"
 
 namespace aspic::app {
@@ -83,14 +83,14 @@ class App final : public EventReceiver {
   Gui& gui() { return *gui_; }
 
  private:
-  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<PlaybackSession> simulation_;
   Commands commands_;
   std::unique_ptr<Gui> gui_;  // none between release_context() and adopt_context()
   WidgetWatcher* watcher_;
 
  public:
   Messages messages;
-  Simulation& simulation;
+  PlaybackSession& simulation;
   View view;
   SceneControl scene;
   RunControl run;
@@ -109,7 +109,7 @@ class App final : public EventReceiver {
   bool help_visible = false;
 
  private:
-  App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulation> simulation);
+  App(const AppOptions& options, SceneEditor editor, std::unique_ptr<PlaybackSession> simulation);
   Status attach(gl::Context& context, double scale, WindowServices services);
   std::vector<Command> make_commands();
   void deliver_keys();

@@ -248,7 +248,7 @@ void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
   edit(gui, scene, "cube[].rotation.angle", cube, {"Rotation angle"});
 }
 
-void bodies_section(Gui& gui, SceneControl& scene, Simulation& simulation, CellEditor& cells,
+void bodies_section(Gui& gui, SceneControl& scene, PlaybackSession& simulation, CellEditor& cells,
                     Layouts& layout) {
   add_buttons(gui, scene, cells);
   const SettingsList& cubes = body_rows().front().list;

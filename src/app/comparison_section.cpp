@@ -58,7 +58,7 @@ Words words_for(std::string_view key, const Scene& scene) {
 }
 
 /// The present value as text that a difference takes.
-std::string present(std::string_view key, const Scene& scene, const Simulation& leader) {
+std::string present(std::string_view key, const Scene& scene, const PlaybackSession& leader) {
   if (key == backend_key) return std::string(next_backend(leader.present().backend()).name);
   const ShortKey* const row = find_short_key(key);
   const auto place = row ? place_of(scene, *row) : place_of(key);
@@ -184,7 +184,7 @@ void ComparisonView::draw_labels(const Gui& gui) const {
   const auto scale = static_cast<float>(gui.scale());
   const float gap = 14.0f * scale, thickness = 3.0f * scale;
   for (std::size_t i = 0; i < comparison_.count(); ++i) {
-    const Simulation& s = comparison_.run(i);
+    const PlaybackSession& s = comparison_.run(i);
     const Box& box = boxes_[i];
     const ImVec2 low = {static_cast<float>(box.left), static_cast<float>(box.top)},
                  high = {static_cast<float>(box.right), static_cast<float>(box.bottom)};

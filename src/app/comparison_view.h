@@ -82,7 +82,7 @@ class ComparisonView {
 
  private:
   struct Pictured {
-    const Simulation* run = nullptr;
+    const PlaybackSession* run = nullptr;
     std::unique_ptr<ScenePicture> picture;
   };
   void refuse(const Difference& difference, const Error& why);

@@ -77,7 +77,7 @@ std::vector<Box> label_boxes() {
 }
 
 /// The time in large figures, in the upper right corner of the view. Returns its place.
-Box draw_clock(const Gui& gui, const Simulation& simulation, const Box& view) {
+Box draw_clock(const Gui& gui, const PlaybackSession& simulation, const Box& view) {
   const std::string text = fmt::format("t = {:.2f} s", simulation.time());
   const auto gap = static_cast<float>(16.0 * gui.scale());
   ImGui::SetNextWindowPos({static_cast<float>(view.right) - gap, static_cast<float>(view.top) + gap},

@@ -173,7 +173,7 @@ Status Film::draw() {
 
 /// How many pictures the film wants of what is shown; none before all runs have come to the clock's step.
 std::uint64_t Film::wanted_copies() {
-  const Simulation& clock = comparison_.clock().setter();
+  const PlaybackSession& clock = comparison_.clock().setter();
   if (!comparison_.clock().is_shown()) return 0;
   const double timestep = clock.model().simulation.timestep;
   const std::uint64_t copies = pace_->take(clock.step(), timestep, simulation_.pacer().speed());

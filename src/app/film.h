@@ -14,7 +14,7 @@
 #include "app/view.h"
 #include "io/film_format.h"
 #include "playback/film_pace.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 #include "run/comparison.h"
 #include "run/recording.h"
 
@@ -39,7 +39,7 @@ inline std::string_view film_ending(const FilmFormat& format) {
 class Film {
  public:
   /// The references must outlive it.
-  Film(Simulation& simulation, const SceneEditor& editor, const View& view, ScenePicture& picture,
+  Film(PlaybackSession& simulation, const SceneEditor& editor, const View& view, ScenePicture& picture,
        Comparison& comparison, ComparisonView& comparison_view, Messages& messages)
       : simulation_(simulation),
         editor_(editor),
@@ -85,7 +85,7 @@ class Film {
   Status draw();
   const gl::Framebuffer& drawn() const { return canvas_ ? canvas_->picture() : picture_.pixels(); }
 
-  Simulation& simulation_;
+  PlaybackSession& simulation_;
   const SceneEditor& editor_;
   const View& view_;
   ScenePicture& picture_;

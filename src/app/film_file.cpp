@@ -28,7 +28,7 @@ Scene scene_of(const Comparison& comparison, std::size_t run) {
 
 /// Whether hands have a part in what the first run does: pulls, pins, balls that were thrown.
 bool has_hands(const Comparison& comparison) {
-  const Simulation& run = comparison.run(0);
+  const PlaybackSession& run = comparison.run(0);
   const Setup& setup = run.present().setup();
   return !setup.thrown.empty() || !setup.pinned.empty() || !run.inputs().empty();
 }
@@ -41,7 +41,7 @@ Status check_live(ComparisonView& view) {
 }
 
 /// What acts on a run, as its solver takes it; nothing where that would refuse it.
-Inputs inputs_of_run(const Simulation& run, Precision precision) {
+Inputs inputs_of_run(const PlaybackSession& run, Precision precision) {
   auto inputs = rounded_inputs(run.model(), run.inputs(), precision);
   return inputs ? std::move(*inputs) : Inputs();
 }
@@ -81,7 +81,7 @@ class FilmStates final : public FilmFile {
  private:
   Status write(const Comparison& comparison, const States& states) override {
     for (std::size_t i = 0; i < sinks_.size(); ++i) {
-      const Simulation& run = comparison.run(i);
+      const PlaybackSession& run = comparison.run(i);
       // Kept for the end, when the run may have another.
       models_[i] = run.present().engines().shared_model();
       inputs_[i] = inputs_of_run(run, states[i]->precision);

@@ -16,8 +16,8 @@
 #include "app/parameter_widget.h"
 #include "app/units.h"
 #include "base/printable.h"
+#include "model/contact_surface.h"
 #include "model/springs.h"
-#include "model/touch_surface.h"
 
 namespace aspic::app {
 namespace {
@@ -38,7 +38,7 @@ std::vector<Curve> energy_curves(const Model& model) {
       {"gravitational", IM_COL32(110, 165, 240, 255),
        [](const EnergySample& s) { return s.measures.gravitational; }},
       {"total", IM_COL32(230, 232, 236, 255), [](const EnergySample& s) { return s.measures.total(); }}};
-  if (bodies_touch(model))
+  if (has_body_contact(model))
     curves.push_back({"of contact", IM_COL32(225, 130, 190, 255),
                       [](const EnergySample& s) { return s.measures.contact.value_or(0.0); }});
   if (!model.actuation.empty())
@@ -287,7 +287,7 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
 void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, Layouts& layout) {
   const Comparison& comparison = comparison_view.comparison();
 
-  const Simulation& s = comparison.run(0);
+  const PlaybackSession& s = comparison.run(0);
   const auto show = [&](const char* name, std::span<const Curve> curves, std::size_t& compared,
                         const char* unit, std::string_view help) {
     if (comparison.active())
@@ -320,7 +320,7 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
        "moment.");
 }
 
-void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
+void shadow_section(Gui& gui, const PlaybackSession& s, RunControl& run) {
   const std::vector<const BackendRow*> others = others_than(s.present().backend());
   bool on = s.present().engines().shadowed();
   if (check_box(gui, "compare", "shadow/on", on,

@@ -7,14 +7,14 @@
 
 #include "app/messages.h"
 #include "app/view.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 
 namespace aspic::app {
 
 class Hands {
  public:
   /// The references must outlive it.
-  Hands(Simulation& simulation, const View& view, Messages& messages)
+  Hands(PlaybackSession& simulation, const View& view, Messages& messages)
       : simulation_(simulation), view_(view), messages_(messages) {}
 
   /// Why pulls and pins are not possible at present; nothing: they are.
@@ -47,7 +47,7 @@ class Hands {
   BallSettings thrown_ball(const Ray& sight) const;
   void take_hold(Pull pull, double held_mass, double most);
 
-  Simulation& simulation_;
+  PlaybackSession& simulation_;
   const View& view_;
   Messages& messages_;
   std::uint32_t thrown_ = 0;  // by throw_many(): each ball flies its own way

@@ -34,7 +34,7 @@ void row(const char* name, const Vec3& v, const char* unit, bool components) {
 }
 
 /// Whether a terrain is so near that the particle may feel it.
-bool touches(const Simulation& simulation, const Vec3& x) {
+bool touches(const PlaybackSession& simulation, const Vec3& x) {
   const Model& model = simulation.model();
   return std::ranges::any_of(model.terrain, [&](const Terrain& t) {
     const Terrain now = terrain_at(t, model.simulation.timestep, simulation.snapshot().step);
@@ -44,7 +44,7 @@ bool touches(const Simulation& simulation, const Vec3& x) {
 
 }  // namespace
 
-Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& h, const Box& view,
+Box particle_readout(const Gui& gui, const PlaybackSession& simulation, const Hovered& h, const Box& view,
                      std::span<const Box> taken) {
   const ParticleForce& f = h.force;
   const auto gap = static_cast<float>(16.0 * gui.scale());

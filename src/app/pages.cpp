@@ -14,7 +14,7 @@ namespace aspic::app {
 namespace {
 
 /// Ways on after a divergence.
-void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run, Messages& messages) {
+void divergence_buttons(Gui& gui, const PlaybackSession& simulation, RunControl& run, Messages& messages) {
   if (const auto step = run.offered_step()) {
     if (button(gui, "diverged/stable", fmt::format("Use h = {:.4g} s", *step).c_str(),
                "Continues from shortly before the divergence with all values as they are now, and this time "

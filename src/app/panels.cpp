@@ -101,7 +101,7 @@ void sections(Parts parts, std::span<const Heading> headings, std::string_view w
   }
 }
 
-int longest_edge(const Simulation& s) {
+int longest_edge(const PlaybackSession& s) {
   int particles = 0;
   for (const CubeSettings& cube : s.present().setup().settings.cubes)
     particles = std::max(particles, std::ranges::max(cube.lattice()));
@@ -111,7 +111,7 @@ int longest_edge(const Simulation& s) {
 /// The facts of the run, as many as there is room for: the first are never left out.
 void status_line(Parts parts, const Box& box) {
   const double scale = parts.gui.scale();
-  const Simulation& s = parts.simulation;
+  const PlaybackSession& s = parts.simulation;
   const Recording* const film = parts.film.recording();
   const Panel panel("##status", box, at(12.0 * scale, 6.0 * scale), bar);
   const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
@@ -139,7 +139,7 @@ void status_line(Parts parts, const Box& box) {
   if (s.jobs().long_under_way())
     facts.insert(facts.begin(), s.rebuild().changing() ? "working: rebuilds the scene"
                                                        : fmt::format("working on step {}", s.step() + 1));
-  const Simulation& setter = comparison.clock().setter();
+  const PlaybackSession& setter = comparison.clock().setter();
   facts.push_back(
       fmt::format("step {}", std::llround(comparison.clock().time() / setter.model().simulation.timestep)));
   facts.emplace_back("F1 all keys");
@@ -157,7 +157,7 @@ void status_line(Parts parts, const Box& box) {
 }
 
 /// The bar of the history, under the picture: any step since the start.
-void timeline(Gui& gui, const Simulation& s, ComparisonView& comparison_view, RunControl& run,
+void timeline(Gui& gui, const PlaybackSession& s, ComparisonView& comparison_view, RunControl& run,
               const Box& box) {
   const Comparison& comparison = comparison_view.comparison();
 

@@ -25,7 +25,7 @@
 #include "app/scene_picture.h"
 #include "app/view.h"
 #include "model/bodies.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 #include "playback/stability_map.h"
 
 namespace aspic::app {
@@ -37,7 +37,7 @@ enum class Closing { no, asked, decided };
 struct PanelParts {
   Gui& gui;
   Messages& messages;
-  Simulation& simulation;
+  PlaybackSession& simulation;
   View& view;
   SceneControl& scene;
   RunControl& run;
@@ -67,8 +67,9 @@ void draw_panels(const PanelParts& parts, double width, double height);
 
 // ---- sections of the panels; each a heading with its widgets ----
 void scene_section(Gui& gui, SceneControl& scene);
-void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene, const Comparison& comparison);
-void bodies_section(Gui& gui, SceneControl& scene, Simulation& simulation, CellEditor& cells,
+void simulation_section(Gui& gui, PlaybackSession& simulation, SceneControl& scene,
+                        const Comparison& comparison);
+void bodies_section(Gui& gui, SceneControl& scene, PlaybackSession& simulation, CellEditor& cells,
                     Layouts& layout);
 /// Layers of a body of cells, painted with the mouse, and its palette.
 void cells_section(Gui& gui, SceneControl& scene, CellEditor& cells);
@@ -82,7 +83,7 @@ bool element_line(Gui& gui, const std::string& title, const std::string& name, s
 /// Adds an actuator that acts on a body; all actuators with their keys, and what inputs they have now.
 /// Nothing where scenes have none.
 void add_actuator_button(Gui& gui, SceneControl& scene, std::string_view key, std::size_t index);
-void actuators_of_bodies(Gui& gui, SceneControl& scene, Simulation& simulation);
+void actuators_of_bodies(Gui& gui, SceneControl& scene, PlaybackSession& simulation);
 /// Removes a body from a scene: the camera does not follow it any more, and no actuator acts on it.
 void remove_body(Scene& scene, const SettingsList& bodies, std::size_t index);
 /// The colour in which the window shows a material by name, and cells of a body; neutral for none.
@@ -94,7 +95,7 @@ std::string material_text(const VoxelsSettings& voxels, char cell);
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube);
 void springs_section(Gui& gui, SceneControl& scene, Layouts& layout);
 void contact_section(Gui& gui, SceneControl& scene);
-void balls_section(Gui& gui, const Simulation& simulation, Hands& hands);
+void balls_section(Gui& gui, const PlaybackSession& simulation, Hands& hands);
 /// `shown`: the ends of the scale of colours in the picture.
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const QuantityRange& shown,
                   bool& shadows, Layouts& layout);
@@ -109,19 +110,19 @@ void recording_section(Gui& gui, const std::string& source, Film& film);
 void picture_files(Gui& gui, SavedLook& look);
 /// A button for each format of states; part of the recording section. The references but `source` must
 /// outlive `files`.
-void state_files(Gui& gui, const std::string& source, Simulation& simulation, ComparisonView& comparison_view,
-                 Messages& messages, FileDialog& files);
-void performance_section(Gui& gui, Simulation& simulation, const Comparison& comparison,
+void state_files(Gui& gui, const std::string& source, PlaybackSession& simulation,
+                 ComparisonView& comparison_view, Messages& messages, FileDialog& files);
+void performance_section(Gui& gui, PlaybackSession& simulation, const Comparison& comparison,
                          const ScenePicture& picture);
 void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, Layouts& layout);
 void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& comparison_view);
-void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
+void shadow_section(Gui& gui, const PlaybackSession& simulation, RunControl& run);
 void stability_section(Gui& gui, SceneControl& scene, StabilityMap& map);
 
 /// What is known of a particle, in the lower left corner of the view, above what is in its way there. Returns
 /// its place.
-Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& hovered, const Box& view,
-                     std::span<const Box> taken);
+Box particle_readout(const Gui& gui, const PlaybackSession& simulation, const Hovered& hovered,
+                     const Box& view, std::span<const Box> taken);
 /// A ring around the ball under the mouse, and the band by which `hand` pulls it, where the picture is.
 void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& hovered, const View& view,
                const Box& picture);

@@ -53,10 +53,11 @@ void pass_times(Gui& gui, GpuSolver& solver) {
 
 }  // namespace
 
-void performance_section(Gui& gui, Simulation& s, const Comparison& comparison, const ScenePicture& picture) {
+void performance_section(Gui& gui, PlaybackSession& s, const Comparison& comparison,
+                         const ScenePicture& picture) {
   const gl::DeviceInfo& device = picture.context().info();
   // After a divergence of the window's own run, figures of the one that sets the clock.
-  const Simulation& setter = comparison.clock().setter();
+  const PlaybackSession& setter = comparison.clock().setter();
   const bool runs = comparison.clock().runs();
   figure("Steps", runs ? short_number(setter.pacer().steps_per_second()) + "/s" : "paused",
          "Time steps per second.");

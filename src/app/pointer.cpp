@@ -96,7 +96,7 @@ void Pointer::describe(std::uint32_t particle) {
   const State& state = simulation_.snapshot();
   if (!incident_ || incident_model_ != simulation_.present().model_number()) {
     incident_.emplace(model);
-    touching_ = std::make_unique<TouchForces>(model);
+    touching_ = std::make_unique<BodyContactForces>(model);
     incident_model_ = simulation_.present().model_number();
   }
   Hovered h;

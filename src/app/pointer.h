@@ -8,11 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "analysis/touch_forces.h"
+#include "analysis/body_contact_forces.h"
 #include "app/hands.h"
 #include "app/scene_picture.h"
 #include "app/view.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 
 namespace aspic::app {
 
@@ -33,7 +33,7 @@ struct Hovered {
 class Pointer {
  public:
   /// The references must outlive it.
-  Pointer(const Simulation& simulation, View& view, ScenePicture& picture, Hands& hands)
+  Pointer(const PlaybackSession& simulation, View& view, ScenePicture& picture, Hands& hands)
       : simulation_(simulation), view_(view), picture_(picture), hands_(hands) {}
 
   // ---- events, as GLFW names them ----
@@ -71,7 +71,7 @@ class Pointer {
   void describe_ball(std::uint32_t ball);
   void centre_on(const Picked& picked);
 
-  const Simulation& simulation_;
+  const PlaybackSession& simulation_;
   View& view_;
   ScenePicture& picture_;
   Hands& hands_;
@@ -81,8 +81,8 @@ class Pointer {
   double pressed_time_ = -1e9, pressed_x_ = 0.0, pressed_y_ = 0.0;  // the last press that was no double one
   std::optional<Hovered> hovered_;
   std::optional<Question> asked_;
-  std::optional<SpringFinder> incident_;   // of the model with that number
-  std::unique_ptr<TouchForces> touching_;  // likewise
+  std::optional<SpringFinder> incident_;         // of the model with that number
+  std::unique_ptr<BodyContactForces> touching_;  // likewise
   std::uint64_t incident_model_ = 0;
 };
 

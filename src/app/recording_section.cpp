@@ -96,7 +96,7 @@ Status write_series(const std::string& path, Overwrite overwrite, const std::deq
 
 /// `replayed`: the log whose inputs the run has in addition to those of hands.
 Status write_state(const StateFormat& format, const std::string& path, Overwrite overwrite, Scene scene,
-                   const Simulation& simulation, const State& state, const InputLog& replayed) {
+                   const PlaybackSession& simulation, const State& state, const InputLog& replayed) {
   scene.model = simulation.present().setup().settings;
   RunFacts facts = {to_toml(scene), scene.model.simulation.integrator};
   if (format.holds_scene) {
@@ -118,8 +118,8 @@ std::string free_state_name(const std::string& source, std::string_view ending,
 
 /// Writes the state now, or with a format over time the energies of the plot, to a file; of runs compared
 /// each to its own, numbered as aspic run --beside does. A message says what became of it.
-void save(const StateFormat& format, const std::string& path, Overwrite overwrite, Simulation& simulation,
-          ComparisonView& comparison_view, Messages& messages) {
+void save(const StateFormat& format, const std::string& path, Overwrite overwrite,
+          PlaybackSession& simulation, ComparisonView& comparison_view, Messages& messages) {
   const Comparison& comparison = comparison_view.comparison();
   if (!messages.check(simulation.settle())) return;
   std::vector<std::string> paths, lines;
@@ -135,7 +135,7 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
                       format.option));
   }
   for (std::size_t i = 0; i < comparison.count(); ++i) {
-    const Simulation& run = comparison.run(i);
+    const PlaybackSession& run = comparison.run(i);
     const auto& energies = run.samples().energies();
     // Of several runs what the pictures show, which is of one time.
     const State& state = comparison.active() ? comparison_view.picture(i).shown_state() : run.snapshot();
@@ -156,7 +156,8 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
 }
 
 /// Writes what hands did so far. A message says what became of it.
-void save_inputs(const std::string& path, Overwrite overwrite, Simulation& simulation, Messages& messages) {
+void save_inputs(const std::string& path, Overwrite overwrite, PlaybackSession& simulation,
+                 Messages& messages) {
   if (!messages.check(simulation.settle())) return;
   const auto inputs = recorded_inputs(simulation.playback().history(), simulation.playback().here());
   if (!inputs) return messages.refuse(inputs.error());
@@ -225,8 +226,8 @@ void picture_files(Gui& gui, SavedLook& look) {
             "Leaves sky and terrain out of saved pictures; what the bodies do not cover is transparent.");
 }
 
-void state_files(Gui& gui, const std::string& source, Simulation& simulation, ComparisonView& comparison_view,
-                 Messages& messages, FileDialog& files) {
+void state_files(Gui& gui, const std::string& source, PlaybackSession& simulation,
+                 ComparisonView& comparison_view, Messages& messages, FileDialog& files) {
   const Comparison& comparison = comparison_view.comparison();
   for (const StateFormat& format : state_formats()) {
     if (format.motion) continue;  // next to films

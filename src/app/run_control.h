@@ -7,7 +7,7 @@
 #include "app/messages.h"
 #include "app/scene_control.h"
 #include "aspic/run.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 
 namespace aspic::app {
 
@@ -15,7 +15,7 @@ namespace aspic::app {
 class RunControl {
  public:
   /// The references must outlive it.
-  RunControl(Simulation& simulation, SceneControl& scene, Messages& messages)
+  RunControl(PlaybackSession& simulation, SceneControl& scene, Messages& messages)
       : simulation_(simulation), scene_(scene), messages_(messages) {}
 
   void toggle();
@@ -43,7 +43,7 @@ class RunControl {
   std::optional<double> offered_step() const;
 
  private:
-  Simulation& simulation_;
+  PlaybackSession& simulation_;
   SceneControl& scene_;
   Messages& messages_;
   std::optional<StabilityLimit> stable_;

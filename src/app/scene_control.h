@@ -11,14 +11,14 @@
 #include "app/messages.h"
 #include "app/scene_editor.h"
 #include "app/view.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 
 namespace aspic::app {
 
 class SceneControl {
  public:
   /// The references must outlive it. The simulation runs the editor's scene.
-  SceneControl(SceneEditor editor, Simulation& simulation, View& view, Messages& messages)
+  SceneControl(SceneEditor editor, PlaybackSession& simulation, View& view, Messages& messages)
       : editor_(std::move(editor)), simulation_(simulation), view_(view), messages_(messages) {
     list_file();
   }
@@ -89,7 +89,7 @@ class SceneControl {
 
   SceneEditor editor_;
   std::vector<std::string> files_;
-  Simulation& simulation_;
+  PlaybackSession& simulation_;
   View& view_;
   Messages& messages_;
   std::string beside_;  // what to say besides the end of a change

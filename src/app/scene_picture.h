@@ -11,7 +11,7 @@
 #include "app/picture_rate.h"
 #include "app/view.h"
 #include "app/window.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 #include "render/renderer.h"
 #include "scene/follow.h"
 
@@ -38,7 +38,7 @@ struct SavedLook {
 class ScenePicture {
  public:
   /// The references must outlive it. `in_full_quality`: a software rasteriser draws as hardware does.
-  ScenePicture(Simulation& simulation, const Scene& scene, View& view, bool in_full_quality)
+  ScenePicture(PlaybackSession& simulation, const Scene& scene, View& view, bool in_full_quality)
       : full_quality(in_full_quality), simulation_(simulation), scene_(scene), view_(view) {}
 
   bool full_quality;
@@ -144,7 +144,7 @@ class ScenePicture {
   Status draw(const Content& content, bool legend, const std::optional<Colour>& background = {});
   Status save_clear(const Content& content, const std::string& path);
 
-  Simulation& simulation_;
+  PlaybackSession& simulation_;
   const Scene& scene_;
   View& view_;
   std::optional<std::string> refusal_;

@@ -131,7 +131,7 @@ void scene_section(Gui& gui, SceneControl& scene) {
   scene_buttons(gui, scene.editor());
 }
 
-void simulation_section(Gui& gui, Simulation& s, SceneControl& scene, const Comparison& comparison) {
+void simulation_section(Gui& gui, PlaybackSession& s, SceneControl& scene, const Comparison& comparison) {
   const float third = share_of_line(3), half = share_of_line(2);
   const bool diverged = s.divergence().has_value();
   const bool runs = s.running() || comparison.clock().others_run();
@@ -175,7 +175,7 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene, const Comp
   }
 }
 
-void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
+void balls_section(Gui& gui, const PlaybackSession& simulation, Hands& hands) {
   const float third = share_of_line(3);
   command_button(gui, "balls/throw", "Throw",
                  "Throws a ball from the camera into the middle of the picture; the key throws it at what is "

@@ -258,8 +258,8 @@ Status execute(const SceneCheckOptions& options) {
   const Integrator own = model.simulation.integrator;
   const double timestep = model.simulation.timestep;
   std::vector<StabilityLimit> limits;
-  const TouchFacts touching = touch_facts(model);
-  TouchingLimits touching_steps;
+  const ContactFacts touching = contact_facts(model);
+  ContactLimits contact_steps;
   {
     ProgressBar bar(100, "stable steps: part");
     const auto watch = [&](double share) {
@@ -269,9 +269,9 @@ Status execute(const SceneCheckOptions& options) {
     limits = stability_limits(model, explicit_integrators, StabilityEffort::thorough, watch);
     if (!touching.pairings.empty()) {
       const auto while_touching = [&](Meeting meeting) {
-        return touching_limits(model, explicit_integrators, meeting, StabilityEffort::thorough, watch);
+        return contact_limits(model, explicit_integrators, meeting, StabilityEffort::thorough, watch);
       };
-      touching_steps = {while_touching(Meeting::faces), while_touching(Meeting::edges)};
+      contact_steps = {while_touching(Meeting::faces), while_touching(Meeting::edges)};
     }
   }
   if (interrupt.interrupted())
@@ -311,7 +311,7 @@ Status execute(const SceneCheckOptions& options) {
                                     {"integrator", name_of(own)},
                                     {"timestep", timestep},
                                     {"stable_steps", steps},
-                                    {"contact", contact_json(scene, model, touching, touching_steps)},
+                                    {"contact", contact_json(scene, model, touching, contact_steps)},
                                     {"materials", materials_json(scene.model)},
                                     {"diagnostics", to_json(found)},
                                     {"largest_cubes", capacity ? largest : Json()}})));
@@ -342,9 +342,9 @@ Status execute(const SceneCheckOptions& options) {
     for (std::size_t i = 0; i < limits.size(); ++i) {
       text += fmt::format("stable step  {:<24} {:>10}", name_of(explicit_integrators[i]),
                           stability_figure(limits[i]));
-      if (!touching_steps.faces.empty())
-        text += fmt::format("; in contact {}, edges on edges {}", stability_figure(touching_steps.faces[i]),
-                            stability_figure(touching_steps.edges[i]));
+      if (!contact_steps.faces.empty())
+        text += fmt::format("; in contact {}, edges on edges {}", stability_figure(contact_steps.faces[i]),
+                            stability_figure(contact_steps.edges[i]));
       text += "\n";
     }
     text += fmt::format("time step    {:<24} {:>8} s\n", name_of(own), timestep);
@@ -361,7 +361,7 @@ Status execute(const SceneCheckOptions& options) {
   }
   for (const std::string& note : idle_keys(scene.model)) print_message(note);
   for (const Diagnostic& each : found) print_warning(each.sentence());
-  for (const std::string& warning : contact_warnings(model, touching, touching_steps)) print_warning(warning);
+  for (const std::string& warning : contact_warnings(model, touching, contact_steps)) print_warning(warning);
   return {};
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_pairings = 8;
 
 /// "cube[0]", "cube[0], cube[2]", "28 bodies, cube[0] to cube[27]".
-std::string names_of(const TouchKind& kind, const std::vector<std::string>& names) {
+std::string names_of(const ContactKind& kind, const std::vector<std::string>& names) {
   const std::vector<std::uint32_t>& b = kind.bodies;
   if (b.size() > 3)
     return fmt::format("{} bodies, {} {} {}", b.size(), names[b.front()],
@@ -28,7 +28,7 @@ std::string names_of(const TouchKind& kind, const std::vector<std::string>& name
   return text;
 }
 
-std::string pairing_name(const TouchPairing& pairing, const TouchFacts& facts,
+std::string pairing_name(const ContactPairing& pairing, const ContactFacts& facts,
                          const std::vector<std::string>& names) {
   const std::string a = names_of(facts.kinds[pairing.a], names);
   if (pairing.self)
@@ -38,12 +38,12 @@ std::string pairing_name(const TouchPairing& pairing, const TouchFacts& facts,
 }
 
 /// Up to where nothing passes, and why.
-std::string speed_text(const TouchPairing& pairing, const TouchFacts& facts) {
+std::string speed_text(const ContactPairing& pairing, const ContactFacts& facts) {
   const std::string upto = fmt::format("nothing passes up to {:.3g} m/s, ", pairing.speed());
   if (pairing.speed() == pairing.step_speed) return upto + "by the way in a step";
   if (pairing.speed() == pairing.sheet_speed) return upto + "by what a push of a sheet holds";
-  const TouchKind &a = facts.kinds[pairing.a], &b = facts.kinds[pairing.b];
-  const TouchKind& slower = a.share() * a.sound <= b.share() * b.sound ? a : b;
+  const ContactKind &a = facts.kinds[pairing.a], &b = facts.kinds[pairing.b];
+  const ContactKind& slower = a.share() * a.sound <= b.share() * b.sound ? a : b;
   return upto + fmt::format("{:.2g} of the speed of sound {:.3g} m/s", pairing.sound_speed / slower.sound,
                             slower.sound);
 }
@@ -54,22 +54,22 @@ std::vector<std::string> body_names(const Scene& scene) {
 
 /// ζ of pushes below which explicit Euler gains energy in an impact, the largest of all pairs; 0 with other
 /// methods.
-double least_zeta(const Model& model, const TouchFacts& facts) {
+double least_zeta(const Model& model, const ContactFacts& facts) {
   double least = 0.0;
   if (model.simulation.integrator == Integrator::explicit_euler)
-    for (const TouchPairing& pairing : facts.pairings) least = std::max(least, pairing.least_zeta);
+    for (const ContactPairing& pairing : facts.pairings) least = std::max(least, pairing.least_zeta);
   return least;
 }
 
 }  // namespace
 
-std::string contact_text(const Scene& scene, const Model& model, const TouchFacts& facts) {
+std::string contact_text(const Scene& scene, const Model& model, const ContactFacts& facts) {
   std::string text;
   const auto line = [&](const std::string& words) { text += fmt::format("contact      {}\n", words); };
   const std::vector<std::string> names = body_names(scene);
   for (std::size_t n = 0; n < std::min(facts.pairings.size(), most_pairings); ++n) {
-    const TouchPairing& pairing = facts.pairings[n];
-    const TouchPair& pair = pairing.pair;
+    const ContactPairing& pairing = facts.pairings[n];
+    const ContactPair& pair = pairing.pair;
     line(fmt::format("{}: k {:.4g} N/m, c {:.4g} N·s/m, ρ {:.3g} m, D {:.3g} m, μ {:g}; {}",
                      pairing_name(pairing, facts, names), pair.stiffness,
                      row_of(model.simulation.integrator).staged() ? pair.damping : 0.0, pair.reach,
@@ -77,28 +77,28 @@ std::string contact_text(const Scene& scene, const Model& model, const TouchFact
   }
   if (facts.pairings.size() > most_pairings)
     line(fmt::format("and {} more pairs of kinds", facts.pairings.size() - most_pairings));
-  for (const TouchKind& kind : facts.kinds)
+  for (const ContactKind& kind : facts.kinds)
     if (kind.stack && model.contact.bodies)
       line(fmt::format("{}: a stack of such stands up to {:.3g} m high", names_of(kind, names), *kind.stack));
   return text;
 }
 
-Json contact_json(const Scene& scene, const Model& model, const TouchFacts& facts,
-                  const TouchingLimits& limits) {
+Json contact_json(const Scene& scene, const Model& model, const ContactFacts& facts,
+                  const ContactLimits& limits) {
   if (facts.pairings.empty()) return {};
   const std::vector<std::string> names = body_names(scene);
-  const auto named = [&](const TouchKind& kind) {
+  const auto named = [&](const ContactKind& kind) {
     Json all = Json::array();
     for (const std::uint32_t b : kind.bodies) all.push_back(names[b]);
     return all;
   };
   Json kinds = Json::array(), pairs = Json::array(), steps = Json::object(), overlaps = Json::array();
-  for (const TouchKind& kind : facts.kinds) {
+  for (const ContactKind& kind : facts.kinds) {
     Json made = {{"bodies", named(kind)}, {"speed_of_sound", kind.sound}, {"damped", kind.damped}};
     made["stack"] = kind.stack ? Json(*kind.stack) : Json();
     kinds.push_back(std::move(made));
   }
-  for (const TouchPairing& pairing : facts.pairings)
+  for (const ContactPairing& pairing : facts.pairings)
     pairs.push_back({{"kinds", Json{pairing.a, pairing.b}},
                      {"self", pairing.self},
                      {"stiffness", pairing.pair.stiffness},
@@ -118,8 +118,8 @@ Json contact_json(const Scene& scene, const Model& model, const TouchFacts& fact
   return {{"kinds", kinds}, {"pairs", pairs}, {"stable_steps", steps}, {"overlaps", overlaps}};
 }
 
-std::vector<std::string> contact_warnings(const Model& model, const TouchFacts& facts,
-                                          const TouchingLimits& limits) {
+std::vector<std::string> contact_warnings(const Model& model, const ContactFacts& facts,
+                                          const ContactLimits& limits) {
   std::vector<std::string> warnings;
   const SimulationSettings& simulation = model.simulation;
   if (const double zeta = least_zeta(model, facts); zeta > model.contact.body_damping)

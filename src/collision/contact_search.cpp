@@ -23,7 +23,7 @@ constexpr float least_idle = 0.04f;
 
 /// P, or N_P, of the points of the carriers.
 template <class T, class Value>
-Vector<T> over_own(const TouchPoint& point, const Value& value) {
+Vector<T> over_own(const SurfacePoint& point, const Value& value) {
   if (point.single()) return value(point.own[0]);
   return static_cast<T>(point.weight[0]) * value(point.own[0]) +
          static_cast<T>(point.weight[1]) * value(point.own[1]);
@@ -32,7 +32,7 @@ Vector<T> over_own(const TouchPoint& point, const Value& value) {
 /// How far, up to `most` [m], a point may go against each corner of a triangle before it touches it, from
 /// either side and whatever else is near; 0 or less if not far.
 template <class T>
-T free_way(const Sight<T>& seen, const Face<T>& face, const TouchConstants<T>& pair, T most) {
+T free_way(const ClosestPoint<T>& seen, const Face<T>& face, const PairConstants<T>& pair, T most) {
   const T first = std::min(most, seen.L - pair.sight), off = seen.L - pair.eased;
   if (!pair.closed || first <= off) return first;
   // Left is a touch from inside, for which −z has to become 0.7 L. With the corners its plane moves at the
@@ -59,13 +59,13 @@ ContactSearch<T>::ContactSearch(const Model& model, double ahead_step)
   const Field<double> x = field<double>(model.initial_position.list(0, model.particle_count()));
   const Field<double> v = Field<double>::Zero(3, x.cols());
   const ParticleView<const double> at = {components(x.data()), components(v.data()), 3};
-  if (initial.begin_step(0, at) && initial.find(at)) overlaps_ = {surfaces_, initial.touches()};
+  if (initial.begin_step(0, at) && initial.find(at)) overlaps_ = {surfaces_, initial.contacts()};
 }
 
 template <class T>
 ContactSearch<T>::ContactSearch(const Model& model, double ahead_step, bool initial)
     : ContactForces<T>(model.simulation.timestep),
-      surfaces_(touch_surfaces(model)),
+      surfaces_(contact_surfaces(model)),
       table_(model.contact, surfaces_.bodies, ahead_step),
       near_(model, surfaces_, near_slack, true),
       timestep_(model.simulation.timestep),
@@ -77,9 +77,9 @@ ContactSearch<T>::ContactSearch(const Model& model, double ahead_step, bool init
       v_(surfaces_.points.size()),
       place_of_(surfaces_.points.size(), nowhere),
       places_(surfaces_.points.size()) {
-  this->friction_ = table_.rubs();
+  this->friction_ = table_.has_friction();
   for (std::uint32_t p = 0; p < surfaces_.points.size(); ++p) {
-    const TouchPoint& point = surfaces_.points[p];
+    const SurfacePoint& point = surfaces_.points[p];
     for (std::size_t n = 0; n < 2; ++n) weight_[n].push_back(static_cast<T>(point.weight[n]));
     if (point.single()) surface_.push_back({point.carrier[0], p});
   }
@@ -116,8 +116,8 @@ void ContactSearch<T>::list_used(const Particles& at) {
   own_.clear();
   asked_.clear();
   std::uint32_t own = 0;  // they ascend
-  for (const Encounter& near : near_.encounters()) {
-    const TouchPoint& point = surfaces_.points[near.point];
+  for (const PointCandidates& near : near_.encounters()) {
+    const SurfacePoint& point = surfaces_.points[near.point];
     while (own + 1 < surfaces_.bodies.size() && surfaces_.bodies[own + 1].first_point <= near.point) ++own;
     own_.push_back(own);
     asked_.push_back(
@@ -152,7 +152,7 @@ void ContactSearch<T>::want(std::size_t encounter) {
 
 /// Whether the box of a triangle holds a point near it at the start of the step.
 template <class T>
-bool ContactSearch<T>::is_candidate(const Encounter& near, const TouchConstants<T>& pair,
+bool ContactSearch<T>::is_candidate(const PointCandidates& near, const PairConstants<T>& pair,
                                     std::uint32_t triangle) const {
   return box_of<T>(surfaces_.triangles[triangle], *start_)
       .holds(pair.margin, position_of<T>(surfaces_.points[near.point], *start_));
@@ -162,12 +162,12 @@ template <class T>
 void ContactSearch<T>::find_in(std::size_t number) {
   Piece& piece = pieces_[number];
   const bool in_turn = in_turn_.load(std::memory_order_acquire) == number;
-  piece.out = in_turn ? &touches_ : &piece.touches;
-  piece.touches.clear();
+  piece.out = in_turn ? &contacts_ : &piece.contacts;
+  piece.contacts.clear();
   piece.listed.clear();
   const std::size_t first = number * piece_size,
                     end = std::min(near_.encounters().size(), first + piece_size);
-  TouchBatch<T> batch;
+  ContactBatch<T> batch;
   if (side_by_side_ != nullptr && !overlaps_.active() && !initial_) {
     ask(first, end, batch);
     if (batch.count > 0) side_by_side_(tables(), batch);
@@ -177,12 +177,12 @@ void ContactSearch<T>::find_in(std::size_t number) {
     const bool side_by_side = asked < batch.count && static_cast<std::size_t>(batch.encounter[asked]) == n;
     const std::size_t place = side_by_side ? asked++ : 0;
     if (side_by_side && batch.answer[place] != batch.unsure) {
-      if (batch.answer[place] == batch.touches) add(n, batch, place, piece);
-    } else if (short_.may_touch(n)) {
+      if (batch.answer[place] == batch.contacts) add(n, batch, place, piece);
+    } else if (short_.may_contact(n)) {
       const Looker p = looker(n);
       if (stays_apart(p)) continue;
       if (!look_at_few(p, piece.sights)) look_at_all(p, piece);
-      touch(p, piece);
+      contact(p, piece);
     }
   }
   if (in_turn) in_turn_.store(number + 1, std::memory_order_release);
@@ -190,9 +190,9 @@ void ContactSearch<T>::find_in(std::size_t number) {
 
 /// The encounters of a range whose short lists hold and name triangles.
 template <class T>
-void ContactSearch<T>::ask(std::size_t first, std::size_t end, TouchBatch<T>& batch) const {
+void ContactSearch<T>::ask(std::size_t first, std::size_t end, ContactBatch<T>& batch) const {
   for (std::size_t n = first; n < end; ++n) {
-    if (!short_.holds(n) || !short_.may_touch(n)) continue;
+    if (!short_.holds(n) || !short_.may_contact(n)) continue;
     const std::uint32_t listed = short_[n].count;
     const std::size_t place = batch.count++;
     batch.encounter[place] = static_cast<std::int32_t>(n);
@@ -220,7 +220,7 @@ void ContactSearch<T>::ask(std::size_t first, std::size_t end, TouchBatch<T>& ba
 }
 
 template <class T>
-TouchTables<T> ContactSearch<T>::tables() const {
+ContactTables<T> ContactSearch<T>::tables() const {
   const auto& lists = short_.lists();
   static_assert(sizeof(lists[0]) % sizeof(lists[0].triangle[0]) == 0);
   return {x_.data(),
@@ -236,7 +236,7 @@ TouchTables<T> ContactSearch<T>::tables() const {
 
 template <class T>
 typename ContactSearch<T>::Looker ContactSearch<T>::looker(std::size_t n) const {
-  const Encounter& near = near_.encounters()[n];
+  const PointCandidates& near = near_.encounters()[n];
   const auto place = [&](std::uint32_t own) { return vector_of(x_[own]); };
   return {n, near, table_[asked_[n].pair], over_own<T>(surfaces_.points[near.point], place)};
 }
@@ -252,22 +252,22 @@ template <class T>
 void ContactSearch<T>::gather() {
   const std::size_t pieces = pieces_of(near_.encounters().size());
   for (std::size_t n = in_turn_; n < pieces; ++n)
-    touches_.insert(touches_.end(), pieces_[n].touches.begin(), pieces_[n].touches.end());
+    contacts_.insert(contacts_.end(), pieces_[n].contacts.begin(), pieces_[n].contacts.end());
   for (std::size_t n = 0; n < pieces; ++n)
     for (const std::size_t listed : pieces_[n].listed) want(listed);
 }
 
 /// More than distances are wrong by [m].
 template <class T>
-T ContactSearch<T>::pad(const TouchConstants<T>& pair) const {
+T ContactSearch<T>::pad(const PairConstants<T>& pair) const {
   return T(0.002) * pair.s + static_cast<T>(near_.pad());
 }
 
 /// Triangles farther than this [m] change nothing for a point whose nearest is `least` away.
 template <class T>
-T ContactSearch<T>::enough(std::optional<T> least, const TouchConstants<T>& pair) const {
-  const T touching = std::max(pair.sight, pair.eased) + pair.tie;
-  return (least && *least <= touching ? std::max(*least, pair.sight) + pair.tie : touching) + pad(pair);
+T ContactSearch<T>::enough(std::optional<T> least, const PairConstants<T>& pair) const {
+  const T in_contact = std::max(pair.sight, pair.eased) + pair.tie;
+  return (least && *least <= in_contact ? std::max(*least, pair.sight) + pair.tie : in_contact) + pad(pair);
 }
 
 /// Whether a point that was to touch nothing for a while touches nothing for another, going by the triangles
@@ -281,7 +281,7 @@ bool ContactSearch<T>::stays_apart(const Looker& p) {
   for (std::size_t n = 0; n < list.count; ++n) {
     const Face<T> face = faces()[list.triangle[n]];
     if (!face.real) return false;
-    const Sight<T> seen = sight_of<T>(list.triangle[n], 0, face, p.P);
+    const ClosestPoint<T> seen = sight_of<T>(list.triangle[n], 0, face, p.P);
     idle = std::min(idle, static_cast<double>(free_way<T>(seen, face, p.pair, way + pad) - pad));
   }
   if (!(idle >= static_cast<double>(least_idle * p.pair.s))) return false;
@@ -291,7 +291,7 @@ bool ContactSearch<T>::stays_apart(const Looker& p) {
 
 /// Fills in `sights` with what may matter from the short list. Returns false if it does not hold.
 template <class T>
-bool ContactSearch<T>::look_at_few(const Looker& p, std::vector<Sight<T>>& sights) const {
+bool ContactSearch<T>::look_at_few(const Looker& p, std::vector<ClosestPoint<T>>& sights) const {
   sights.clear();
   if (!short_.holds(p.n)) return false;
   const auto& list = short_[p.n];
@@ -305,7 +305,7 @@ bool ContactSearch<T>::look_at_few(const Looker& p, std::vector<Sight<T>>& sight
     if (!least || sights.back().L < *least) least = sights.back().L;
   }
   const T matters = enough(least, p.pair);
-  std::erase_if(sights, [&](const Sight<T>& seen) { return !(seen.L <= matters); });
+  std::erase_if(sights, [&](const ClosestPoint<T>& seen) { return !(seen.L <= matters); });
   return short_.limit(p.n) > static_cast<double>(matters);
 }
 
@@ -316,14 +316,14 @@ template <class T>
 void ContactSearch<T>::look_at_all(const Looker& p, Piece& piece) {
   const T way = longest_way * p.pair.s, pad = this->pad(p.pair);
   const T far = enough(std::nullopt, p.pair) + way;
-  std::vector<Sight<T>>&sights = piece.sights, &around = piece.around;
+  std::vector<ClosestPoint<T>>&sights = piece.sights, &around = piece.around;
   sights.clear();
   around.clear();
   piece.by_distance.clear();
   // No longer than that every triangle of the list is a candidate.
   auto& list = short_.begin(p.n, static_cast<double>(way));
   bool lasts = true;
-  SightBatch<T> batch;
+  ClosestPointBatch<T> batch;
   batch.P = p.P;
   for (auto all = near_.triangles(p.near); !all.empty(); all = all.subspan(batch.count)) {
     batch.count = std::min(all.size(), batch_room);
@@ -342,7 +342,7 @@ void ContactSearch<T>::look_at_all(const Looker& p, Piece& piece) {
   piece.by_way.clear();
   T idle = way;
   for (std::size_t n = 0; n < around.size() && idle >= least_idle * p.pair.s; ++n) {
-    const Sight<T>& seen = around[piece.by_distance[n].second];
+    const ClosestPoint<T>& seen = around[piece.by_distance[n].second];
     const T free = free_way<T>(seen, faces()[seen.triangle], p.pair, way + pad) - pad;
     idle = std::min(idle, free);
     if (free < way) piece.by_way.push_back({free, piece.by_distance[n].second});
@@ -355,10 +355,11 @@ void ContactSearch<T>::look_at_all(const Looker& p, Piece& piece) {
     return;
   }
   const Vector<T> N = normal_of(p);
-  for (const Sight<T>& seen : around)
+  for (const ClosestPoint<T>& seen : around)
     if (counts<T>(faces()[seen.triangle], p.pair, N) && is_candidate(p.near, p.pair, seen.triangle))
       sights.push_back(seen);
-  const Sight<T>* const first = nearest_of<T>(sights, p.pair.tie, [](const Sight<T>&) { return true; });
+  const ClosestPoint<T>* const first =
+      nearest_of<T>(sights, p.pair.tie, [](const ClosestPoint<T>&) { return true; });
   const T most = enough(first ? std::optional(first->L) : std::nullopt, p.pair) + way;
   list.bound = list_first(p, piece.by_distance, most, far, around) - short_.way(p.n);
   for (std::size_t n = 0; n < list.count; ++n)
@@ -371,7 +372,7 @@ void ContactSearch<T>::look_at_all(const Looker& p, Piece& piece) {
 /// `beyond` if there is none [m].
 template <class T>
 double ContactSearch<T>::list_first(const Looker& p, const Order& order, T most, T beyond,
-                                    const std::vector<Sight<T>>& around) {
+                                    const std::vector<ClosestPoint<T>>& around) {
   auto& list = short_.list(p.n);
   for (const auto& [distance, n] : order) {
     if (distance > most || list.count == most_listed) return static_cast<double>(distance);
@@ -381,16 +382,17 @@ double ContactSearch<T>::list_first(const Looker& p, const Order& order, T most,
 }
 
 template <class T>
-void ContactSearch<T>::touch(const Looker& p, Piece& piece) const {
+void ContactSearch<T>::contact(const Looker& p, Piece& piece) const {
   const T depth = initial_ ? p.pair.eased : overlaps_.depth(p.near.point, p.near.body, p.pair);
-  select_contacts<T>(piece.sights, p.pair, depth,
-                     [&](const Sight<T>& seen, const TouchGap<T>& gap) { add(p, seen, gap, piece); });
+  select_contacts<T>(piece.sights, p.pair, depth, [&](const ClosestPoint<T>& seen, const ContactGap<T>& gap) {
+    add(p, seen, gap, piece);
+  });
 }
 
 template <class T>
-void ContactSearch<T>::add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap,
+void ContactSearch<T>::add(const Looker& p, const ClosestPoint<T>& seen, const ContactGap<T>& gap,
                            Piece& piece) const {
-  Touch<T>& made = begin_touch(p.n, seen.triangle, seen.at.b, seen.at.c, piece);
+  ContactPoint<T>& made = begin_contact(p.n, seen.triangle, seen.at.b, seen.at.c, piece);
   made.n = gap.n;
   made.d = gap.d;
   made.reach = overlaps_.reach(p.near.point, p.near.body, p.pair);
@@ -400,24 +402,24 @@ void ContactSearch<T>::add(const Looker& p, const Sight<T>& seen, const TouchGap
 
 /// What has been found side by side.
 template <class T>
-void ContactSearch<T>::add(std::size_t encounter, const TouchBatch<T>& batch, std::size_t place,
+void ContactSearch<T>::add(std::size_t encounter, const ContactBatch<T>& batch, std::size_t place,
                            Piece& piece) const {
-  Touch<T>& made = begin_touch(encounter, static_cast<std::uint32_t>(batch.triangle[place]), batch.b[place],
-                               batch.c[place], piece);
+  ContactPoint<T>& made = begin_contact(encounter, static_cast<std::uint32_t>(batch.triangle[place]),
+                                        batch.b[place], batch.c[place], piece);
   made.n = {batch.n[0][place], batch.n[1][place], batch.n[2][place]};
   made.d = batch.d[place];
   made.reach = table_[asked_[encounter].pair].reach;
-  made.rest = batch.rest[place];
-  made.push = batch.push[place];
+  made.static_force = batch.static_force[place];
+  made.normal_force = batch.normal_force[place];
 }
 
 template <class T>
-Touch<T>& ContactSearch<T>::begin_touch(std::size_t encounter, std::uint32_t triangle, T b, T c,
-                                        Piece& piece) const {
+ContactPoint<T>& ContactSearch<T>::begin_contact(std::size_t encounter, std::uint32_t triangle, T b, T c,
+                                                 Piece& piece) const {
   const Asked& asked = asked_[encounter];
   const auto& face = surfaces_.faces[triangle];
-  const TouchConstants<T>& pair = table_[asked.pair];
-  Touch<T>& made = piece.out->emplace_back();
+  const PairConstants<T>& pair = table_[asked.pair];
+  ContactPoint<T>& made = piece.out->emplace_back();
   made.point = near_.encounters()[encounter].point;
   made.triangle = triangle;
   made.carriers = asked.own[0] == asked.own[1] ? 1 : 2;
@@ -436,12 +438,12 @@ template <class T>
 std::uint64_t ContactSearch<T>::bytes() const {
   const auto of = [](const auto&... lists) { return ((lists.capacity() * sizeof(lists[0])) + ...); };
   std::uint64_t all = sizeof(*this) + near_.bytes() + normals_.bytes() + short_.bytes() + ways_.bytes() +
-                      named_.bytes() + surfaces_.points.size() * sizeof(TouchPoint) +
+                      named_.bytes() + surfaces_.points.size() * sizeof(SurfacePoint) +
                       surfaces_.triangles.size() *
-                          (sizeof(TouchTriangle) + sizeof(surfaces_.faces[0]) + 3 * sizeof(std::uint32_t)) +
+                          (sizeof(SurfaceTriangle) + sizeof(surfaces_.faces[0]) + 3 * sizeof(std::uint32_t)) +
                       of(overlaps_.all(), weight_[0], weight_[1], x_, v_, own_, asked_, surface_, met_,
-                         places_, pieces_, touches_, particles_, place_of_, this->share_, this->v1_);
-  for (const Piece& p : pieces_) all += of(p.sights, p.around, p.by_distance, p.by_way, p.touches, p.listed);
+                         places_, pieces_, contacts_, particles_, place_of_, this->share_, this->v1_);
+  for (const Piece& p : pieces_) all += of(p.sights, p.around, p.by_distance, p.by_way, p.contacts, p.listed);
   return all;
 }
 

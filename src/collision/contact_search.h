@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "collision/near_triangles.h"
+#include "collision/candidate_cache.h"
+#include "collision/candidate_lists.h"
+#include "collision/closest_points.h"
+#include "collision/contact_batch.h"
+#include "collision/displacement_bounds.h"
 #include "collision/number_set.h"
 #include "collision/pieces.h"
-#include "collision/touch_batch.h"
-#include "collision/touch_normals.h"
-#include "collision/touch_shortlists.h"
-#include "collision/touch_sights.h"
-#include "collision/touch_ways.h"
-#include "model/touch_surface.h"
+#include "collision/vertex_normals.h"
+#include "model/contact_surface.h"
 #include "physics/contact/candidates.h"
 #include "physics/contact/forces.h"
 #include "physics/contact/geometry.h"
@@ -34,9 +34,9 @@ class ContactSearch : public ContactForces<T> {
  public:
   using typename ContactForces<T>::Particles;
 
-  /// Of a model whose bodies_touch(). Bodies that overlap in its initial state are eased apart. With an
+  /// Of a model whose has_body_contact(). Bodies that overlap in its initial state are eased apart. With an
   /// `ahead_step` h [s] pushes are those at the end of a step (docs/contact.md, "Implicit Euler"): contacts
-  /// are found from touch_ahead spacings on, and k·h takes the place of the damper.
+  /// are found from contact_range spacings on, and k·h takes the place of the damper.
   explicit ContactSearch(const Model& model, double ahead_step = 0.0);
   ContactSearch(const ContactSearch&) = delete;
   ContactSearch& operator=(const ContactSearch&) = delete;
@@ -55,7 +55,7 @@ class ContactSearch : public ContactForces<T> {
   /// The candidates of this step: calls take(point, triangle), ascending by point, body and triangle.
   template <class Take>
   void for_candidates(const Take& take) const {
-    for (const Encounter& near : near_.encounters())
+    for (const PointCandidates& near : near_.encounters())
       for (const std::uint32_t t : near_.triangles(near))
         if (is_candidate(near, table_.at(surfaces_.body_of_point(near.point), near.body), t))
           take(near.point, t);
@@ -72,37 +72,37 @@ class ContactSearch : public ContactForces<T> {
     normals_.make(x_, run);
     const std::size_t pieces = pieces_of(near_.encounters().size());
     pieces_.resize(std::max(pieces_.size(), pieces));
-    touches_.clear();
+    contacts_.clear();
     in_turn_ = 0;
     run(pieces, [&](std::size_t n) { find_in(n); });
     gather();
-    return !touches_.empty();
+    return !contacts_.empty();
   }
   /// How what is seen is computed, to the same bits as look_one_by_one(); and what points touch whose short
   /// lists hold, which without the second are looked at one by one.
-  using Look = void (*)(const FacesInSpace<T>&, SightBatch<T>&);
-  void set_side_by_side(Look look, TouchSideBySide<T> touch) {
+  using Look = void (*)(const FacesInSpace<T>&, ClosestPointBatch<T>&);
+  void set_side_by_side(Look look, ContactBatchKernel<T> contact) {
     look_ = look;
-    side_by_side_ = touch;
+    side_by_side_ = contact;
   }
   /// With an ahead_step: whether find() looks where the step may end, not where it begins.
   void set_at_end(bool on) { at_end_ = on; }
-  /// As ContactForces::push() and act(), on many threads.
+  /// As in ContactForces, on many threads.
   template <class InverseMass, class Run>
-  void push(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
-            const Run& run) {
+  void add_normal_forces(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
+                         const Run& run) {
     this->begin_friction(start, inverse_mass, f);
     if (this->friction_)
-      run_pieces(touches_.size(), task_size, run, [&](std::size_t n) { this->find_friction(touches_[n]); });
+      run_pieces(contacts_.size(), task_size, run, [&](std::size_t n) { this->find_friction(contacts_[n]); });
   }
-  using ContactForces<T>::push;
+  using ContactForces<T>::add_normal_forces;
   template <class InverseMass, class Run>
-  void act(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
-           const Run& run) {
-    push(start, inverse_mass, f, run);
+  void add_forces(const Particles& start, const InverseMass& inverse_mass, std::vector<Vector<T>>& f,
+                  const Run& run) {
+    add_normal_forces(start, inverse_mass, f, run);
     this->add_friction(f);
   }
-  using ContactForces<T>::act;
+  using ContactForces<T>::add_forces;
   /// Bodies whose boxes are farther apart than this do not touch [m].
   double most_margin() const { return near_.most_margin(); }
 
@@ -110,27 +110,27 @@ class ContactSearch : public ContactForces<T> {
   std::uint64_t bytes() const;
 
  private:
-  using ContactForces<T>::touches_;
+  using ContactForces<T>::contacts_;
   using ContactForces<T>::particles_;
   template <class U>
   friend class ContactSearch;
   ContactSearch(const Model& model, double ahead_step, bool initial);
-  bool is_candidate(const Encounter& near, const TouchConstants<T>& pair, std::uint32_t triangle) const;
+  bool is_candidate(const PointCandidates& near, const PairConstants<T>& pair, std::uint32_t triangle) const;
   /// A point and a body, in the middle of a find().
   struct Looker {
     std::size_t n;  // of the encounter
-    const Encounter& near;
-    const TouchConstants<T>& pair;
+    const PointCandidates& near;
+    const PairConstants<T>& pair;
     Vector<T> P;
   };
   using Order = std::vector<std::pair<T, std::uint32_t>>;  // numbers, by something [m]
   /// What one task of find() works with.
   struct Piece {
-    std::vector<Sight<T>> sights, around;
-    Order by_distance, by_way;             // those around
-    std::vector<Touch<T>>* out = nullptr;  // contacts go there:
-    std::vector<Touch<T>> touches;         // until all before are with touches_, here
-    std::vector<std::size_t> listed;       // encounters whose short lists are new
+    std::vector<ClosestPoint<T>> sights, around;
+    Order by_distance, by_way;                    // those around
+    std::vector<ContactPoint<T>>* out = nullptr;  // contacts go there:
+    std::vector<ContactPoint<T>> contacts;        // until all before are with contacts_, here
+    std::vector<std::size_t> listed;              // encounters whose short lists are new
   };
   static constexpr std::size_t piece_size = batch_room;
   static std::size_t pieces_of(std::size_t count) { return (count + piece_size - 1) / piece_size; }
@@ -154,38 +154,38 @@ class ContactSearch : public ContactForces<T> {
       v_[point] = row_of<T>(at.velocity(particle));
     });
   }
-  void ask(std::size_t first, std::size_t end, TouchBatch<T>& batch) const;
-  TouchTables<T> tables() const;
+  void ask(std::size_t first, std::size_t end, ContactBatch<T>& batch) const;
+  ContactTables<T> tables() const;
   void gather();
   FacesInSpace<T> faces() const { return {surfaces_.faces, x_}; }
-  T pad(const TouchConstants<T>& pair) const;
-  T enough(std::optional<T> least, const TouchConstants<T>& pair) const;
+  T pad(const PairConstants<T>& pair) const;
+  T enough(std::optional<T> least, const PairConstants<T>& pair) const;
   Looker looker(std::size_t encounter) const;
   Vector<T> normal_of(const Looker& p) const;
   bool stays_apart(const Looker& p);
-  bool look_at_few(const Looker& p, std::vector<Sight<T>>& sights) const;
+  bool look_at_few(const Looker& p, std::vector<ClosestPoint<T>>& sights) const;
   void look_at_all(const Looker& p, Piece& piece);
   double list_first(const Looker& p, const Order& order, T most, T beyond,
-                    const std::vector<Sight<T>>& around);
-  void touch(const Looker& p, Piece& piece) const;
-  void add(const Looker& p, const Sight<T>& seen, const TouchGap<T>& gap, Piece& piece) const;
-  void add(std::size_t encounter, const TouchBatch<T>& batch, std::size_t place, Piece& piece) const;
-  Touch<T>& begin_touch(std::size_t encounter, std::uint32_t triangle, T b, T c, Piece& piece) const;
+                    const std::vector<ClosestPoint<T>>& around);
+  void contact(const Looker& p, Piece& piece) const;
+  void add(const Looker& p, const ClosestPoint<T>& seen, const ContactGap<T>& gap, Piece& piece) const;
+  void add(std::size_t encounter, const ContactBatch<T>& batch, std::size_t place, Piece& piece) const;
+  ContactPoint<T>& begin_contact(std::size_t encounter, std::uint32_t triangle, T b, T c, Piece& piece) const;
 
-  TouchSurfaces surfaces_;
-  TouchTable<T> table_;
-  NearTriangles near_;
+  ContactSurfaces surfaces_;
+  PairTable<T> table_;
+  CandidateLists near_;
   double timestep_;
   bool at_end_ = false;
   Look look_ = look_one_by_one<T>;
-  TouchSideBySide<T> side_by_side_ = nullptr;
+  ContactBatchKernel<T> side_by_side_ = nullptr;
   InitialOverlaps<T> overlaps_;
   bool initial_;  // finds these
   std::optional<Particles> start_;
   bool laid_out_ = false;  // they are laid out as they are at the start
-  TouchWays<T> ways_;
-  TouchNormals<T> normals_;
-  TouchShortlists<T> short_;
+  DisplacementBounds<T> ways_;
+  VertexNormals<T> normals_;
+  CandidateCache<T> short_;
   std::vector<Row<T>> x_, v_;  // by point, of those that meetings name
   /// Of an encounter, what a batch asks with.
   struct Asked {
@@ -205,7 +205,7 @@ class ContactSearch : public ContactForces<T> {
   std::vector<std::uint32_t> place_of_;   // where it is among these, by point
   std::vector<Vec3> places_;              // by point
   std::vector<Piece> pieces_;
-  std::atomic<std::size_t> in_turn_ = 0;  // all pieces before this one are with touches_
+  std::atomic<std::size_t> in_turn_ = 0;  // all pieces before this one are with contacts_
 };
 
 // Compiled once, in body_contact.cpp.

@@ -50,8 +50,8 @@ class CpuSolver final : public Solver {
     const bool staged = row_of(model_->simulation.integrator).staged();
     for (const Body& body : model_->bodies) {
       if (body.box()) {
-        springs_.emplace_back(std::in_place_type<Lattice>, *model_, body);
-        margin = std::max(margin, std::get<Lattice>(springs_.back()).reach() + slice);
+        springs_.emplace_back(std::in_place_type<LatticeStencil>, *model_, body);
+        margin = std::max(margin, std::get<LatticeStencil>(springs_.back()).reach() + slice);
       } else if (auto bands = staged && body.lattice ? Bands::of(*model_, body) : std::nullopt) {
         springs_.emplace_back(*std::move(bands));
       } else {

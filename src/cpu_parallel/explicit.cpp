@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include "cpu_parallel/contact_kernels.h"
 #include "cpu_parallel/contact_pieces.h"
-#include "cpu_parallel/touch_kernels.h"
 
 namespace aspic::parallel {
 namespace {
@@ -65,7 +65,7 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
       workers_(parts.workers) {
   std::size_t plane_size = 0, row_size = 0, reach = 0, most = 0;
   for (std::size_t body = 0; body < springs_.size(); ++body) {
-    if (const auto* const lattice = std::get_if<Lattice>(&springs_[body])) {
+    if (const auto* const lattice = std::get_if<LatticeStencil>(&springs_[body])) {
       plane_size = std::max(plane_size, lattice->plane_size());
       row_size = std::max(row_size, lattice->row_size());
     }
@@ -86,8 +86,8 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
 
 void ExplicitSteps::constants_changed() {
   known_ = false;
-  bodies_ = bodies_touch(*model_) ? std::make_unique<collision::ContactSearch<float>>(*model_) : nullptr;
-  if (bodies_) bodies_->set_side_by_side(look_side_by_side, touch_in_lanes);
+  bodies_ = has_body_contact(*model_) ? std::make_unique<collision::ContactSearch<float>>(*model_) : nullptr;
+  if (bodies_) bodies_->set_side_by_side(look_side_by_side, contacts_in_lanes);
 }
 
 std::uint64_t ExplicitSteps::bytes() const {
@@ -111,7 +111,7 @@ void ExplicitSteps::cut(std::size_t body) {
     const std::size_t size = (bands->count() + parts - 1) / parts;
     return for_parts({bands->first(), bands->count()}, (size + slice - 1) / slice * slice, add);
   }
-  const auto& lattice = std::get<Lattice>(springs_[body]);
+  const auto& lattice = std::get<LatticeStencil>(springs_[body]);
   const std::size_t planes = lattice.planes(), threads = workers_.threads();
   const std::size_t tasks =
       threads == 1 ? 1
@@ -148,9 +148,9 @@ bool ExplicitSteps::all_apart() {
 
 bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
   if (!known_) look_at(start);
-  const bool may_touch =
+  const bool may_contact =
       bodies_ && !all_apart() && bodies_->begin_step(dynamics_.step(), view(start), on_workers());
-  if (may_touch) {
+  if (may_contact) {
     touched_.resize(bodies_->particles().size());
     kept_force_.resize(touched_.size());
     if (method_.stages.size() > 1) kept_sums_.resize(touched_.size());
@@ -175,11 +175,11 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
                             s + 1 == stages,
                             method_.drift};
     lengths_.set(dynamics_, s == 0 ? 0.0 : method_.stages[s - 1].advance);
-    touching_ = may_touch && bodies_->find(view(*at), on_workers());
+    in_contact_ = may_contact && bodies_->find(view(*at), on_workers());
     workers_.run(tasks_.size(), [&](std::size_t n) {
       if (!dynamics_.interrupted()) run(tasks_[n], move);
     });
-    if (touching_ && !dynamics_.interrupted()) touch(move);
+    if (in_contact_ && !dynamics_.interrupted()) contact(move);
     accumulate = accumulate || stage.weight != 0.0;
     at = to;
   }
@@ -194,9 +194,9 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   const ForceInput input = {stage.at, mass_.data(), {g.x(), g.y(), g.z()}, arithmetic_};
   const bool near = near_terrain(*model_, task.box);
   if (stage.at == stage.start) find_resting(task, stage);
-  if (touching_) task.kept = first_touched(task);
+  if (in_contact_) task.kept = first_touched(task);
   Moved moved(speed_limit);
-  if (const auto* const lattice = std::get_if<Lattice>(&springs_[task.body])) {
+  if (const auto* const lattice = std::get_if<LatticeStencil>(&springs_[task.body])) {
     const std::size_t size = lattice->plane_size();
     const std::size_t from = (task.range.first - lattice->first()) / size,
                       to = from + task.range.count / size;
@@ -221,7 +221,7 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   }
   task.box = moved.box();
   task.sound = moved.sound;
-  if (touching_) return;  // some move again first
+  if (in_contact_) return;  // some move again first
   end(task, stage);
 }
 
@@ -267,7 +267,7 @@ void put_force(const Forces& forces, std::size_t n, const Vector& f) {
 void ExplicitSteps::finish(Task& task, const StageMove& stage, bool near, Range range, const Forces& forces,
                            Moved& moved) {
   pull(stage, range, forces);
-  if (touching_) keep_touched(task, stage, range, forces);
+  if (in_contact_) keep_touched(task, stage, range, forces);
   if (near || !task.resting.empty()) add_contact(task, stage, range, forces);
   move(stage, range, forces, moved);
 }
@@ -283,8 +283,8 @@ void ExplicitSteps::keep_touched(Task& task, const StageMove& stage, Range range
 }
 
 /// Pushes and friction of bodies, then what comes after them for the particles they touch.
-void ExplicitSteps::touch(const StageMove& stage) {
-  bodies_->act(
+void ExplicitSteps::contact(const StageMove& stage) {
+  bodies_->add_forces(
       view(*stage.start), [&](std::uint32_t p) { return inverse_mass_[p]; }, touched_, on_workers());
   workers_.run(tasks_.size(), [&](std::size_t n) {
     move_touched(tasks_[n], stage);

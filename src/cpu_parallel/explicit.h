@@ -55,7 +55,7 @@ class ExplicitSteps final : public Steps {
   auto on_workers() {
     return [this](std::size_t count, const auto& task) { workers_.run(count, task); };
   }
-  void touch(const StageMove& stage);
+  void contact(const StageMove& stage);
   void move_touched(Task& task, const StageMove& stage);
   void keep_touched(Task& task, const StageMove& stage, Range range, const Forces& forces);
   std::size_t first_touched(const Task& task) const;
@@ -77,7 +77,7 @@ class ExplicitSteps final : public Steps {
   Particles between_, sums_;
   bool known_ = false;                                       ///< the boxes, and what is near
   std::unique_ptr<collision::ContactSearch<float>> bodies_;  ///< none where none can touch
-  bool touching_ = false;                                    ///< in the stage at hand
+  bool in_contact_ = false;                                  ///< in the stage at hand
   std::vector<Box> body_boxes_;                              ///< around all tasks of each body
   /// Of bodies_->particles(): forces with and without those of bodies [N], and their sums before the stage.
   std::vector<physics::Vector<float>> touched_, kept_force_;

@@ -40,7 +40,7 @@ std::array<float*, 3> from(BlockVectors& a, std::size_t n) {
 
 Jacobians jacobians_of(const Springs& springs, float h) {
   return with_springs(springs, [&](const auto& each) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(each)>, Lattice>)
+    if constexpr (std::is_same_v<std::decay_t<decltype(each)>, LatticeStencil>)
       return Jacobians(each, h, each.planes() * each.plane_size() <= most_kept_particles);
     else
       return Jacobians(each, h, each.count() <= most_kept_particles);
@@ -69,7 +69,8 @@ ImplicitEuler::ImplicitEuler(const StepParts& parts)
   const std::size_t count = model_->particle_count();
   if (model_->contact.model == ContactModel::course) held_force_ = vector_array(count, slice);
   if (ahead_.acts()) clearance_ = FloatArray(count, slice);
-  if (bodies_touch(*model_)) bodies_ = std::make_unique<ImplicitTouch>(*model_, inverse_mass_, workers_);
+  if (has_body_contact(*model_))
+    bodies_ = std::make_unique<ImplicitBodyContact>(*model_, inverse_mass_, workers_);
 }
 
 void ImplicitEuler::constants_changed() {
@@ -78,7 +79,7 @@ void ImplicitEuler::constants_changed() {
   h_ = static_cast<float>(model_->simulation.timestep);
   for (std::size_t body = 0; body < springs_.size(); ++body)
     with_springs(springs_[body], [&](const auto& each) { jacobians_[body].set_constants(each, h_); });
-  if (bodies_) bodies_ = std::make_unique<ImplicitTouch>(*model_, inverse_mass_, workers_);
+  if (bodies_) bodies_ = std::make_unique<ImplicitBodyContact>(*model_, inverse_mass_, workers_);
 }
 
 template <class Task>
@@ -154,14 +155,14 @@ reference::Trial<float> ImplicitEuler::start() {
       std::copy_n(start_->v[c].data() + block.range.first, block.range.count,
                   end_->v[c].data() + block.range.first);
   });
-  touching_ = bodies_ && bodies_->start(dynamics_.step(), *start_, start_force());
+  in_contact_ = bodies_ && bodies_->start(dynamics_.step(), *start_, start_force());
   lengths_.set(dynamics_, 1.0);
   return evaluate();
 }
 
 /// Of particles in ascending order: springs are evaluated block by block. A step of no length linearises
 /// there.
-ImplicitTouch::Force ImplicitEuler::start_force() {
+ImplicitBodyContact::Force ImplicitEuler::start_force() {
   return [this, of = std::make_shared<BlockForces>(), known = blocks_.size()](std::uint32_t i) mutable {
     const std::size_t n = i / block_size;
     if (n != known) forces(blocks_[n], at(start_->v, 0.0f), *of);
@@ -170,12 +171,12 @@ ImplicitTouch::Force ImplicitEuler::start_force() {
   };
 }
 
-reference::Trial<float> ImplicitEuler::touch_again(bool from_trial) {
+reference::Trial<float> ImplicitEuler::update_contacts(bool from_trial) {
   if (!from_trial)
     for (std::size_t c = 0; c < 3; ++c)
       std::copy_n(system_.base[c].data(), model_->particle_count(), end_->v[c].data());
   lengths_.set(dynamics_, 0.0);
-  touching_ = bodies_->search_again(*start_, end_->v, h_, start_force());
+  in_contact_ = bodies_->search_again(*start_, end_->v, h_, start_force());
   lengths_.set(dynamics_, 1.0);
   return evaluate();
 }
@@ -198,7 +199,7 @@ reference::Trial<float> ImplicitEuler::try_step(float lambda, bool onwards) {
 
 reference::Trial<float> ImplicitEuler::evaluate() {
   const bool course = model_->contact.model == ContactModel::course;
-  const bool pushes = touching_ && bodies_->react(end_->v, course ? &held_force_ : nullptr);
+  const bool pushes = in_contact_ && bodies_->react(end_->v, course ? &held_force_ : nullptr);
   for_each_block([&](Block& block, std::size_t n) {
     const ResidualShare share = evaluate_block(block);
     largest_[n] = share.largest;
@@ -217,14 +218,14 @@ ResidualShare ImplicitEuler::evaluate_block(Block& block) {
   const bool course = model_->contact.model == ContactModel::course;
   const BlockResidual at = {&start_->v,
                             &end_->v,
-                            touching_ ? &bodies_->force()
-                            : course  ? &held_force_
-                                      : nullptr,
+                            in_contact_ ? &bodies_->force()
+                            : course    ? &held_force_
+                                        : nullptr,
                             mass_.data(),
                             inverse_mass_.data(),
                             h_,
                             ahead_.acts() ? clearance_.data() : nullptr};
-  for (std::size_t c = 0; touching_ && c < 6; ++c)
+  for (std::size_t c = 0; in_contact_ && c < 6; ++c)
     add_to(at_trial.diagonal[c], bodies_->blocks()[c], block.range);
   BlockVectors R, free;
   BlockNumbers meets;
@@ -276,7 +277,7 @@ void ImplicitEuler::multiply_block(const Block& block, const VectorArray& p) {
     set(product, i - range.first,
         vector_of(product, i - range.first) + pull_jacobian_[k] * parallel::vector_of(p, i));
   }
-  for (std::size_t c = 0; touching_ && c < 3; ++c) add_to(product[c], bodies_->product()[c], range);
+  for (std::size_t c = 0; in_contact_ && c < 3; ++c) add_to(product[c], bodies_->product()[c], range);
   for (const Held& held : block.held) {
     const std::size_t n = held.particle - range.first;
     const Vector p_i = parallel::vector_of(p, held.particle);
@@ -304,7 +305,7 @@ float ImplicitEuler::start_solve() {
         std::fill_n(component.data() + block.range.first, block.range.count, 0.0f);
       for (const Held& held : block.held) parallel::set(system_.delta, held.particle, held.prescribed);
     });
-    if (touching_) bodies_->multiply(system_.delta);
+    if (in_contact_) bodies_->multiply(system_.delta);
     for_each_block([&](Block& block, std::size_t) { multiply_block(block, system_.delta); });
   }
   for_each_block([&](Block& block, std::size_t n) {
@@ -316,7 +317,7 @@ float ImplicitEuler::start_solve() {
 }
 
 float ImplicitEuler::apply() {
-  if (touching_) bodies_->multiply(system_.p);
+  if (in_contact_) bodies_->multiply(system_.p);
   for_each_block([&](Block& block, std::size_t n) {
     multiply_block(block, system_.p);
     sums_[n] = dot(system_.p, system_.z, block.range);

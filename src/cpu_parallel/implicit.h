@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "cpu_parallel/implicit_contact.h"
 #include "cpu_parallel/implicit_kernels.h"
-#include "cpu_parallel/implicit_touch.h"
 #include "cpu_parallel/steps.h"
 #include "cpu_reference/implicit_euler.h"
 
@@ -29,8 +29,8 @@ class ImplicitEuler final : public Steps {
   reference::Trial<float> try_step(float lambda, bool onwards);
   float start_solve();
   bool prescribes() const { return prescribes_; }
-  bool touches() const { return touching_; }
-  reference::Trial<float> touch_again(bool from_trial);
+  bool contacts() const { return in_contact_; }
+  reference::Trial<float> update_contacts(bool from_trial);
   bool interrupted() const { return dynamics_.interrupted(); }
   float apply();
   float advance(float alpha, bool first);
@@ -73,7 +73,7 @@ class ImplicitEuler final : public Steps {
   void update_block(const Block& block, Update how, float alpha);
   float sum_of_blocks() const;
   bool end_block(const Block& block);
-  ImplicitTouch::Force start_force();
+  ImplicitBodyContact::Force start_force();
 
   const SharedModel& model_;
   const reference::Dynamics<float>& dynamics_;
@@ -91,8 +91,8 @@ class ImplicitEuler final : public Steps {
   VectorArray held_force_;  // contact force of the course model [N]
   FloatArray clearance_;    // as BlockResidual::clearance
   bool prescribes_ = false;
-  std::unique_ptr<ImplicitTouch> bodies_;  // none where none can touch
-  bool touching_ = false;                  // whether bodies are near each other in this step
+  std::unique_ptr<ImplicitBodyContact> bodies_;  // none where none can touch
+  bool in_contact_ = false;                      // whether bodies are near each other in this step
   const Particles* start_ = nullptr;
   Particles* end_ = nullptr;                                   // its velocities are the trial
   std::vector<physics::SpringJacobian<float>> pull_jacobian_;  // of every pull

@@ -28,7 +28,7 @@ void ImplicitEuler::cut_into_blocks() {
     }
   };
   for (std::size_t b = 0; b < springs_.size(); ++b) {
-    if (const auto* const lattice = std::get_if<Lattice>(&springs_[b])) {
+    if (const auto* const lattice = std::get_if<LatticeStencil>(&springs_[b])) {
       for (std::size_t plane = 0; plane < lattice->planes(); ++plane)
         cut(b, plane, lattice->first() + plane * lattice->plane_size(), lattice->plane_size());
     } else {

@@ -32,10 +32,10 @@ struct Linearisation {
 /// each.
 class Jacobians {
  public:
-  Jacobians(const Lattice& lattice, float h, bool keep);
+  Jacobians(const LatticeStencil& lattice, float h, bool keep);
   Jacobians(const SpringLists& lists, float h, bool keep);
   /// Of the same springs with other constants.
-  void set_constants(const Lattice& lattice, float h);
+  void set_constants(const LatticeStencil& lattice, float h);
   void set_constants(const SpringLists& lists, float h);
 
   /// By direction of a lattice, by class of the model in lists [kg].
@@ -69,13 +69,13 @@ struct LinearisedForces {
   std::array<float*, 6> block;
 };
 
-void linearise(const Lattice& lattice, Jacobians& jacobians, const Linearisation& at, const Segment& segment,
-               const LinearisedForces& out);
+void linearise(const LatticeStencil& lattice, Jacobians& jacobians, const Linearisation& at,
+               const Segment& segment, const LinearisedForces& out);
 void linearise(const SpringLists& lists, Jacobians& jacobians, const Linearisation& at,
                const Segment& segment, const LinearisedForces& out);
 
 /// m·p and the springs' part of A·p [kg·m/s], on each particle of a segment.
-void multiply(const Lattice& lattice, const Jacobians& jacobians, const Linearisation& at,
+void multiply(const LatticeStencil& lattice, const Jacobians& jacobians, const Linearisation& at,
               const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out);
 void multiply(const SpringLists& lists, const Jacobians& jacobians, const Linearisation& at,
               const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out);

@@ -99,7 +99,7 @@ struct Lanes {
 
 /// Calls take(direction number, mask) for the directions in which some of the lanes have a neighbour.
 template <class Take>
-HWY_INLINE void for_each_direction(const Lattice& lattice, std::size_t plane, std::size_t m,
+HWY_INLINE void for_each_direction(const LatticeStencil& lattice, std::size_t plane, std::size_t m,
                                    const Take& take) {
   const auto planes = static_cast<int>(lattice.planes()), own = static_cast<int>(plane);
   const std::span<const Direction> directions = lattice.directions();
@@ -110,7 +110,7 @@ HWY_INLINE void for_each_direction(const Lattice& lattice, std::size_t plane, st
   }
 }
 
-void LineariseLattice(const Lattice& lattice, Jacobians& jacobians, const Linearisation& at,
+void LineariseLattice(const LatticeStencil& lattice, Jacobians& jacobians, const Linearisation& at,
                       const Segment& segment, const LinearisedForces& out) {
   const std::span<const Direction> directions = lattice.directions();
   const Float h = hn::Set(tag, at.h), h2 = hn::Set(tag, at.h * at.h);
@@ -145,8 +145,8 @@ HWY_INLINE Vector kept_times(const float* rows, std::size_t row_size, Float alon
 }
 
 template <bool kept>
-HWY_INLINE void multiply_lattice(const Lattice& lattice, const Jacobians& jacobians, const Linearisation& at,
-                                 const VectorArray& p, const Segment& segment,
+HWY_INLINE void multiply_lattice(const LatticeStencil& lattice, const Jacobians& jacobians,
+                                 const Linearisation& at, const VectorArray& p, const Segment& segment,
                                  const std::array<float*, 3>& out) {
   const std::span<const Direction> directions = lattice.directions();
   const Float h = hn::Set(tag, at.h), h2 = hn::Set(tag, at.h * at.h);
@@ -185,7 +185,7 @@ HWY_INLINE void multiply_lattice(const Lattice& lattice, const Jacobians& jacobi
   }
 }
 
-void MultiplyLattice(const Lattice& lattice, const Jacobians& jacobians, const Linearisation& at,
+void MultiplyLattice(const LatticeStencil& lattice, const Jacobians& jacobians, const Linearisation& at,
                      const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out) {
   if (jacobians.kept()) return multiply_lattice<true>(lattice, jacobians, at, p, segment, out);
   multiply_lattice<false>(lattice, jacobians, at, p, segment, out);
@@ -287,7 +287,7 @@ HWY_EXPORT(LineariseLists);
 HWY_EXPORT(MultiplyLattice);
 HWY_EXPORT(MultiplyLists);
 
-void Jacobians::set_constants(const Lattice& lattice, float h) {
+void Jacobians::set_constants(const LatticeStencil& lattice, float h) {
   along_.clear();
   for (const Direction& to : lattice.directions())
     along_.push_back((h * h) * to.constants.stiffness + h * to.constants.damping);
@@ -299,7 +299,7 @@ void Jacobians::set_constants(const SpringLists& lists, float h) {
     along_.push_back((h * h) * lists.stiffness()[n] + h * lists.damping()[n]);
 }
 
-Jacobians::Jacobians(const Lattice& lattice, float h, bool keep)
+Jacobians::Jacobians(const LatticeStencil& lattice, float h, bool keep)
     : kept_(keep), ups_(lattice.directions().size() / 2), row_size_(lattice.plane_size()) {
   set_constants(lattice, h);
   // Lanes next to a row's ends are read and not used.
@@ -314,15 +314,15 @@ Jacobians::Jacobians(const SpringLists& lists, float h, bool keep) : kept_(keep)
   if (keep) values_ = FloatArray(slots * 4 * slice, 0);
 }
 
-void linearise(const Lattice& lattice, Jacobians& jacobians, const Linearisation& at, const Segment& segment,
-               const LinearisedForces& out) {
+void linearise(const LatticeStencil& lattice, Jacobians& jacobians, const Linearisation& at,
+               const Segment& segment, const LinearisedForces& out) {
   HWY_DYNAMIC_DISPATCH(LineariseLattice)(lattice, jacobians, at, segment, out);
 }
 void linearise(const SpringLists& lists, Jacobians& jacobians, const Linearisation& at,
                const Segment& segment, const LinearisedForces& out) {
   HWY_DYNAMIC_DISPATCH(LineariseLists)(lists, jacobians, at, segment, out);
 }
-void multiply(const Lattice& lattice, const Jacobians& jacobians, const Linearisation& at,
+void multiply(const LatticeStencil& lattice, const Jacobians& jacobians, const Linearisation& at,
               const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out) {
   HWY_DYNAMIC_DISPATCH(MultiplyLattice)(lattice, jacobians, at, p, segment, out);
 }

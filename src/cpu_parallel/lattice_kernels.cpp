@@ -133,7 +133,7 @@ HWY_INLINE std::size_t evaluate_below(const Chunk& chunk, std::span<const Direct
 }
 
 template <Arithmetic arithmetic>
-void springs_in(const Lattice& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
+void springs_in(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
                 const Range& range, int reach, const Forces* forces) {
   const std::span<const Direction> directions = lattice.directions();
   const std::size_t half = directions.size() / 2, left = lattice.planes() - 1 - plane;
@@ -170,14 +170,14 @@ void springs_in(const Lattice& lattice, const ForceInput& input, Sweep& sweep, s
   }
 }
 
-void LatticeSprings(const Lattice& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
+void LatticeSprings(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
                     const Range& range, int reach, const Forces* forces) {
   if (input.arithmetic == Arithmetic::fast)
     return springs_in<Arithmetic::fast>(lattice, input, sweep, plane, range, reach, forces);
   springs_in<Arithmetic::exact>(lattice, input, sweep, plane, range, reach, forces);
 }
 
-void BeginPlane(const Lattice& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane) {
+void BeginPlane(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane) {
   const std::size_t first = lattice.first() + plane * lattice.plane_size();
   for (std::size_t m = 0; m < lattice.plane_size(); m += lanes)
     store(weight_of(input, first + m), sweep.plane(plane), m);
@@ -193,15 +193,15 @@ namespace aspic::parallel {
 HWY_EXPORT(LatticeSprings);
 HWY_EXPORT(BeginPlane);
 
-void begin_plane(const Lattice& lattice, const ForceInput& input, Sweep& sweep, std::size_t n) {
+void begin_plane(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t n) {
   HWY_DYNAMIC_DISPATCH(BeginPlane)(lattice, input, sweep, n);
 }
-void lattice_ghosts(const Lattice& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
+void lattice_ghosts(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
                     int reach) {
   for (std::size_t m = 0; m < lattice.plane_size(); m += chunk_size) HWY_DYNAMIC_DISPATCH(LatticeSprings)
   (lattice, input, sweep, plane, {m, std::min(chunk_size, lattice.plane_size() - m)}, reach, nullptr);
 }
-void lattice_forces(const Lattice& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
+void lattice_forces(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
                     Range range, const Forces& forces) {
   HWY_DYNAMIC_DISPATCH(LatticeSprings)(lattice, input, sweep, plane, range, 0, &forces);
 }

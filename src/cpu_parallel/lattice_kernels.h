@@ -33,16 +33,16 @@ class Sweep {
 };
 
 /// Plane n enters the sweep: its particles have their weight.
-void begin_plane(const Lattice& lattice, const ForceInput& input, Sweep& sweep, std::size_t n);
+void begin_plane(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t n);
 
 /// Springs from a plane into planes above, `reach` planes on or farther, that a sweep which starts above it
 /// needs of it.
-void lattice_ghosts(const Lattice& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
+void lattice_ghosts(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
                     int reach);
 
 /// The springs of the particles first … first + count − 1 of a plane to their upper neighbours; `first` is a
 /// multiple of `slice`, and count ≤ chunk_size. Writes their forces, and up to `slice` − 1 values more.
-void lattice_forces(const Lattice& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
+void lattice_forces(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
                     Range range, const Forces& forces);
 
 }  // namespace aspic::parallel

@@ -12,7 +12,7 @@
 
 namespace aspic::parallel {
 
-using Springs = std::variant<Lattice, Bands, SpringLists>;
+using Springs = std::variant<LatticeStencil, Bands, SpringLists>;
 
 /// Puts them into a solver's springs, by body.
 class MovingLengths {

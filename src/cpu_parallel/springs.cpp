@@ -12,7 +12,7 @@ Constants::Constants(const SpringClass& spring)
       rest_length(static_cast<float>(spring.rest_length)),
       slack(spring.cord ? static_cast<float>(spring.rest_length) : -1.0f) {}
 
-Lattice::Lattice(const Model& model, const Body& body)
+LatticeStencil::LatticeStencil(const Model& model, const Body& body)
     : first_(body.first_particle),
       planes_(body.box()->plane_count()),
       rows_(body.box()->row_count()),
@@ -40,7 +40,7 @@ Lattice::Lattice(const Model& model, const Body& body)
   }
 }
 
-void Lattice::set_constants(const Model& model) {
+void LatticeStencil::set_constants(const Model& model) {
   for (Direction& direction : directions_)
     direction.constants = Constants(model.spring_classes[direction.spring_class]);
 }

@@ -34,10 +34,10 @@ struct Direction {
 };
 
 /// A lattice whose cells are all full. Its planes of particles with the same x follow one another.
-class Lattice {
+class LatticeStencil {
  public:
   /// The lattice that `body` is: it must have a box().
-  Lattice(const Model& model, const Body& body);
+  LatticeStencil(const Model& model, const Body& body);
   /// Of another model with the same springs.
   void set_constants(const Model& model);
 

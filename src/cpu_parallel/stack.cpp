@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "cpu_parallel/contact_pieces.h"
+#include "model/contact_surface.h"
 #include "model/inputs.h"
-#include "model/touch_surface.h"
 #include "physics/divergence.h"
 
 namespace aspic::parallel {
@@ -42,8 +42,8 @@ Strided<T> column(AnyArray& array, std::size_t lane, std::size_t count) {
 }  // namespace
 
 bool Stack::takes(const Model& model) {
-  return row_of(model.simulation.integrator).staged() && model.ball_count() == 0 && !bodies_touch(model) &&
-         model.particle_count() > 0 && model.particle_count() <= most_particles;
+  return row_of(model.simulation.integrator).staged() && model.ball_count() == 0 &&
+         !has_body_contact(model) && model.particle_count() > 0 && model.particle_count() <= most_particles;
 }
 
 bool Stack::same(const Model& a, const Model& b) {

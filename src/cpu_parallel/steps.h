@@ -19,7 +19,7 @@ namespace aspic::parallel {
 /// Calls act(springs) of what every method takes: bands are for explicit ones.
 template <class Act>
 auto with_springs(const Springs& springs, const Act& act) {
-  if (const auto* const lattice = std::get_if<Lattice>(&springs)) return act(*lattice);
+  if (const auto* const lattice = std::get_if<LatticeStencil>(&springs)) return act(*lattice);
   return act(std::get<SpringLists>(springs));
 }
 

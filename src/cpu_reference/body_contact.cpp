@@ -12,17 +12,17 @@ BodyContact<T>::BodyContact(const Model& model, double ahead_step) : BodyContact
   const Field<double> x = field<double>(model.initial_position.list(0, model.particle_count()));
   const Field<double> v = Field<double>::Zero(3, x.cols());
   const ParticleView<const double> at = {components(x.data()), components(v.data()), 3};
-  if (initial.begin_step(0, at) && initial.find(at)) overlaps_ = {surfaces_, initial.touches()};
+  if (initial.begin_step(0, at) && initial.find(at)) overlaps_ = {surfaces_, initial.contacts()};
 }
 
 template <class T>
 BodyContact<T>::BodyContact(const Model& model, double ahead_step, bool initial)
     : ContactForces<T>(model.simulation.timestep),
       model_(model),
-      surfaces_(touch_surfaces(model)),
+      surfaces_(contact_surfaces(model)),
       table_(model.contact, surfaces_.bodies, ahead_step),
       initial_(initial) {
-  this->friction_ = table_.rubs();
+  this->friction_ = table_.has_friction();
   this->particles_.resize(model.particle_count());
   std::iota(this->particles_.begin(), this->particles_.end(), 0u);
 }
@@ -51,7 +51,7 @@ Face<T> BodyContact<T>::face_at(std::uint32_t triangle, const Particles& at) con
 
 /// N_P: the sum of the area normals around each carrier, weighted.
 template <class T>
-Vector<T> BodyContact<T>::normal_of(const TouchPoint& point, const Particles& at) const {
+Vector<T> BodyContact<T>::normal_of(const SurfacePoint& point, const Particles& at) const {
   const auto around = [&](std::uint32_t own) {
     const auto triangles = surfaces_.triangles_at(own);
     Vector<T> sum = face_at(triangles.front(), at).g;
@@ -65,11 +65,11 @@ Vector<T> BodyContact<T>::normal_of(const TouchPoint& point, const Particles& at
 
 template <class T>
 bool BodyContact<T>::find(const Particles& at) {
-  this->touches_.clear();
-  std::vector<Sight<T>> sights;
+  this->contacts_.clear();
+  std::vector<ClosestPoint<T>> sights;
   for (const Group& group : groups_) {
-    const TouchPoint& point = surfaces_.points[group.point];
-    const TouchConstants<T>& pair = table_.at(surfaces_.body_of_point(group.point), group.body);
+    const SurfacePoint& point = surfaces_.points[group.point];
+    const PairConstants<T>& pair = table_.at(surfaces_.body_of_point(group.point), group.body);
     const Vector<T> P = position_of<T>(point, at);
     const Vector<T> N = pair.opposing ? normal_of(point, at) : Vector<T>(Vector<T>::Zero());
     sights.clear();
@@ -79,20 +79,21 @@ bool BodyContact<T>::find(const Particles& at) {
       if (counts<T>(face, pair, N)) sights.push_back(sight_of<T>(t, surfaces_.triangles[t].side, face, P));
     }
     const T depth = initial_ ? pair.eased : overlaps_.depth(group.point, group.body, pair);
-    select_contacts<T>(sights, pair, depth,
-                       [&](const Sight<T>& seen, const TouchGap<T>& gap) { add(group, seen, gap, at); });
+    select_contacts<T>(sights, pair, depth, [&](const ClosestPoint<T>& seen, const ContactGap<T>& gap) {
+      add(group, seen, gap, at);
+    });
   }
-  return !this->touches_.empty();
+  return !this->contacts_.empty();
 }
 
 template <class T>
-void BodyContact<T>::add(const Group& group, const Sight<T>& seen, const TouchGap<T>& gap,
+void BodyContact<T>::add(const Group& group, const ClosestPoint<T>& seen, const ContactGap<T>& gap,
                          const Particles& at) {
-  const TouchPoint& point = surfaces_.points[group.point];
+  const SurfacePoint& point = surfaces_.points[group.point];
   const auto& corner = surfaces_.triangles[seen.triangle].corner;
-  const TouchConstants<T>& pair = table_.at(surfaces_.body_of_point(group.point), group.body);
+  const PairConstants<T>& pair = table_.at(surfaces_.body_of_point(group.point), group.body);
   const T b = seen.at.b, c = seen.at.c;
-  Touch<T>& made = this->touches_.emplace_back();
+  ContactPoint<T>& made = this->contacts_.emplace_back();
   made.point = group.point;
   made.triangle = seen.triangle;
   made.carriers = point.single() ? 1 : 2;

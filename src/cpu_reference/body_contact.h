@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/touch_surface.h"
+#include "model/contact_surface.h"
 #include "physics/contact/candidates.h"
 #include "physics/contact/forces.h"
 #include "physics/contact/overlap.h"
@@ -19,7 +19,7 @@ class BodyContact : public ContactForces<T> {
  public:
   using typename ContactForces<T>::Particles;
 
-  /// Of a model whose bodies_touch(), which must outlive it. With an `ahead_step` h [s] normal forces are
+  /// Of a model whose has_body_contact(), which must outlive it. With an `ahead_step` h [s] normal forces are
   /// those at the end of a step (docs/contact.md, "Implicit Euler").
   explicit BodyContact(const Model& model, double ahead_step = 0.0);
 
@@ -40,13 +40,13 @@ class BodyContact : public ContactForces<T> {
   template <class U>
   friend class BodyContact;
   BodyContact(const Model& model, double ahead_step, bool initial);
-  Vector<T> normal_of(const TouchPoint& point, const Particles& at) const;
+  Vector<T> normal_of(const SurfacePoint& point, const Particles& at) const;
   Face<T> face_at(std::uint32_t triangle, const Particles& at) const;
-  void add(const Group& group, const Sight<T>& seen, const TouchGap<T>& gap, const Particles& at);
+  void add(const Group& group, const ClosestPoint<T>& seen, const ContactGap<T>& gap, const Particles& at);
 
   const Model& model_;
-  TouchSurfaces surfaces_;
-  TouchTable<T> table_;
+  ContactSurfaces surfaces_;
+  PairTable<T> table_;
   InitialOverlaps<T> overlaps_;
   bool at_end_ = false;
   bool initial_ = false;  // finds initial overlaps

@@ -33,7 +33,7 @@ class ImplicitEuler final : public Method<T> {
         ahead_(dynamics.grounds(), dynamics.contact(), model.contact.model == ContactModel::coulomb),
         limits_(model.simulation.implicit),
         h_(static_cast<T>(model.simulation.timestep)) {
-    if (bodies_touch(model)) bodies_ = std::make_unique<TouchAhead<T, BodyContact<T>>>(model);
+    if (has_body_contact(model)) bodies_ = std::make_unique<ImplicitContact<T, BodyContact<T>>>(model);
   }
 
   /// Bytes that the solve holds at most: nine fields and those of two products, a force and two copies of the
@@ -41,7 +41,8 @@ class ImplicitEuler final : public Method<T> {
   static std::uint64_t bytes(const Model& model) {
     return model.particle_count() *
                (sizeof(T) * (3 * 12 + 3) + 2 * sizeof(DiagonalBlock<T>) + sizeof(GroundReaction<T>)) +
-           spring_count(model) * sizeof(SpringJacobian<T>) + (bodies_touch(model) ? touch_bytes(model) : 0);
+           spring_count(model) * sizeof(SpringJacobian<T>) +
+           (has_body_contact(model) ? contact_bytes(model) : 0);
   }
 
   /// The equation's solution.
@@ -52,8 +53,8 @@ class ImplicitEuler final : public Method<T> {
   Trial<T> start();
   Trial<T> fall();
   Trial<T> try_step(T lambda, bool onwards);
-  bool touches() const { return touching_; }
-  Trial<T> touch_again(bool from_trial);
+  bool contacts() const { return in_contact_; }
+  Trial<T> update_contacts(bool from_trial);
   T start_solve();
   bool prescribes() const { return prescribes_; }
   bool interrupted() const { return dynamics_.interrupted(); }
@@ -73,7 +74,7 @@ class ImplicitEuler final : public Method<T> {
   auto inverse_mass() const {
     return [this](std::uint32_t p) { return dynamics_.inverse_mass(p); };
   }
-  bool touch(Field<T>& held, std::vector<DiagonalBlock<T>>& blocks);
+  bool contact(Field<T>& held, std::vector<DiagonalBlock<T>>& blocks);
   Trial<T> evaluate();
   Field<T> product(const Field<T>& p) const;
   Field<T> precondition(const Field<T>& r) const;
@@ -82,7 +83,7 @@ class ImplicitEuler final : public Method<T> {
   const Dynamics<T>& dynamics_;
   const Model& model_;
   GroundAhead<T> ahead_;
-  std::unique_ptr<TouchAhead<T, BodyContact<T>>> bodies_;  ///< none where none can touch
+  std::unique_ptr<ImplicitContact<T, BodyContact<T>>> bodies_;  ///< none where none can touch
   SolveLimits<T> limits_;
   T h_;
 
@@ -90,7 +91,7 @@ class ImplicitEuler final : public Method<T> {
   const Phase<T>* s_ = nullptr;              ///< where it began
   std::vector<SpringConstants<T>> classes_;  ///< at its end
   Field<T> held_;                            ///< contact force of the course model [N]
-  bool touching_ = false;                    ///< whether bodies may touch in it
+  bool in_contact_ = false;                  ///< whether bodies may touch in it
   Field<T> start_force_;                     ///< start_force() [N]
   Field<T> base_, trial_, delta_;            ///< velocities [m/s]: trial = base + λ·δ
   Field<T> r_, z_, p_, q_;  ///< of the linear system; r begins as m·(v − v') + h·f [kg·m/s]
@@ -129,21 +130,21 @@ Trial<T> ImplicitEuler<T>::try_step(T lambda, bool onwards) {
 template <class T>
 void ImplicitEuler<T>::meet_bodies(const Phase<T>& s) {
   start_force_.resize(3, 0);
-  touching_ = bodies_ && bodies_->start(dynamics_.step(), view_of(s), start_force(), inverse_mass());
+  in_contact_ = bodies_ && bodies_->start(dynamics_.step(), view_of(s), start_force(), inverse_mass());
 }
 
 /// A second solve, with what touches where the first one ended.
 template <class T>
-Trial<T> ImplicitEuler<T>::touch_again(bool from_trial) {
+Trial<T> ImplicitEuler<T>::update_contacts(bool from_trial) {
   if (!from_trial) trial_ = base_;
   const Phase<T> end = {s_->x + h_ * trial_, trial_};
-  touching_ = bodies_->search_again(view_of(*s_), view_of(end), start_force(), inverse_mass());
+  in_contact_ = bodies_->search_again(view_of(*s_), view_of(end), start_force(), inverse_mass());
   return evaluate();
 }
 
 /// Adds contact of bodies at the trial to forces and blocks. Returns whether any acts.
 template <class T>
-bool ImplicitEuler<T>::touch(Field<T>& held, std::vector<DiagonalBlock<T>>& blocks) {
+bool ImplicitEuler<T>::contact(Field<T>& held, std::vector<DiagonalBlock<T>>& blocks) {
   const bool acts = bodies_->react([&](std::uint32_t p) { return Vector<T>(trial_.col(p)); });
   Field<T> force = Field<T>::Zero(3, held.cols());
   std::vector<DiagonalBlock<T>> own(blocks.size(), DiagonalBlock<T>(T(0)));
@@ -190,7 +191,7 @@ Trial<T> ImplicitEuler<T>::evaluate() {
     pull_jacobian_.push_back(H);
   }
   Field<T> held = held_;
-  bool holds = touching_ && touch(held, blocks);
+  bool holds = in_contact_ && contact(held, blocks);
   r_ = prescribed_ = Field<T>::Zero(3, count);
   preconditioner_.clear();
   preconditioner_.reserve(static_cast<std::size_t>(count));
@@ -253,7 +254,7 @@ Field<T> ImplicitEuler<T>::product(const Field<T>& p) const {
     const Eigen::Index i = dynamics_.pulls()[k].particle;
     product.col(i) += pull_jacobian_[k] * Vector<T>(p.col(i));
   }
-  if (touching_) {
+  if (in_contact_) {
     bodies_->multiply([&](std::uint32_t i) { return Vector<T>(p.col(i)); });
     Field<T> own = Field<T>::Zero(3, p.cols());
     for (std::size_t k = 0; k < bodies_->particles().size(); ++k)

@@ -123,7 +123,8 @@ bool iterate(System& system, Trial<T> at, const SolveLimits<T>& limits, SolveRep
 ///   Trial<T> start()  the base and the trial are v
 ///   Trial<T> fall()   the trial becomes v + h·g, but v of pinned particles
 ///   bool touches()    whether bodies are near each other in the step
-///   Trial<T> touch_again(bool from_trial)  the trial stays, or becomes the base; bodies touch as found there
+///   Trial<T> update_contacts(bool from_trial)  the trial stays, or becomes the base; bodies touch as found
+///   there
 ///                     from now on
 /// Returns whether the solution is the last trial; else it is the base.
 template <class T, class System>
@@ -133,8 +134,8 @@ bool solve_step(System& system, const SolveLimits<T>& limits, SolveReport& repor
   // In free flight that is the solution: nothing is left to solve.
   if (!(at.residual <= limits.tolerance) && at.falling < at.merit) at = system.fall();
   const bool accepted = iterate(system, at, limits, report);
-  if (!system.touches() || system.interrupted()) return accepted;
-  return iterate(system, system.touch_again(accepted), limits, report);
+  if (!system.contacts() || system.interrupted()) return accepted;
+  return iterate(system, system.update_contacts(accepted), limits, report);
 }
 
 }  // namespace aspic::reference

@@ -15,7 +15,7 @@ class StagedMethod final : public Method<T> {
  public:
   StagedMethod(const Dynamics<T>& dynamics, const Model& model)
       : dynamics_(dynamics), integrator_(model.simulation.integrator), h_(model.simulation.timestep) {
-    if (bodies_touch(model)) bodies_ = std::make_unique<BodyContact<T>>(model);
+    if (has_body_contact(model)) bodies_ = std::make_unique<BodyContact<T>>(model);
   }
 
   Phase<T> step(const Phase<T>& s, SolveReport&) override {
@@ -26,8 +26,8 @@ class StagedMethod final : public Method<T> {
   /// For each stage a velocity and an acceleration; contact of bodies without lists of what touches.
   static std::uint64_t bytes(const Model& model) {
     const std::size_t stages = row_of(model.simulation.integrator).staged()->stages.size();
-    const std::uint64_t touch = bodies_touch(model) ? touch_bytes(model) : 0;
-    return model.particle_count() * sizeof(T) * 3 * 2 * stages + touch;
+    const std::uint64_t contact = has_body_contact(model) ? contact_bytes(model) : 0;
+    return model.particle_count() * sizeof(T) * 3 * 2 * stages + contact;
   }
 
  private:

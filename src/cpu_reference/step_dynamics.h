@@ -40,7 +40,7 @@ class StepDynamics {
   void add_body_contact(Field<T>& f) const {
     std::vector<Vector<T>> forces;
     for (const std::uint32_t p : bodies_->particles()) forces.push_back(f.col(p));
-    bodies_->act(
+    bodies_->add_forces(
         start_, [&](std::uint32_t p) { return dynamics_.inverse_mass(p); }, forces);
     for (std::size_t n = 0; n < forces.size(); ++n) f.col(bodies_->particles()[n]) = forces[n];
   }

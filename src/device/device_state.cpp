@@ -21,7 +21,7 @@ layout::Lattices table_of(const Model& model, IncidentWords kind, const std::vec
         static_cast<std::uint32_t>((o.di + 2) | (o.dj + 2) << 3 | (o.dk + 2) << 6) | o.spring_class << 9;
   for (const Body& body : model.bodies) {
     if (!body.box()) continue;
-    layout::Lattice& lattice = table.lattices[table.lattice_count++];
+    layout::GpuLattice& lattice = table.lattices[table.lattice_count++];
     lattice.first_particle = body.first_particle;
     lattice.first_class = body.first_class;
     lattice.planes = static_cast<std::uint32_t>(body.box()->plane_count());

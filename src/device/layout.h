@@ -24,9 +24,10 @@ struct uvec4 {
 #include "shared/layout.glsl"
 
 static_assert(SPRING_SLICE == spring_slice && NO_SPRING == no_spring);
-static_assert(sizeof(Direction) == 16 && sizeof(Lattice) == 32 && offsetof(Lattices, directions) == 16);
+static_assert(sizeof(Direction) == 16 && sizeof(GpuLattice) == 32 && offsetof(Lattices, directions) == 16);
 static_assert(offsetof(Lattices, lattices) == 16 + sizeof(Direction) * LATTICE_DIRECTIONS);
-static_assert(offsetof(Lattices, unlisted) == offsetof(Lattices, lattices) + sizeof(Lattice) * MAX_LATTICES);
+static_assert(offsetof(Lattices, unlisted) ==
+              offsetof(Lattices, lattices) + sizeof(GpuLattice) * MAX_LATTICES);
 static_assert(sizeof(Unlisted) == 16 && sizeof(CellBody) == 32 && offsetof(Cells, cell_bodies) == 32);
 static_assert(BLOCK_PLACES == block_places && BLOCK_BITS == block_bits);
 static_assert(PLAIN_WORDS == plain_words && MIXED_WORDS == mixed_words);

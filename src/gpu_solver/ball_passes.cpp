@@ -88,7 +88,7 @@ std::uint64_t ball_bytes(const ModelCounts& counts) {
   const auto balls = static_cast<std::uint32_t>(counts.balls),
              particles = static_cast<std::uint32_t>(counts.particles);
   return counts.balls * (BALL_SLOTS * sizeof(layout::Ball) + sizeof(layout::BallBody)) +
-         (counts.balls + counts.particles) * sizeof(layout::BallTouches) + grid_bytes(balls, particles) +
+         (counts.balls + counts.particles) * sizeof(layout::BallContacts) + grid_bytes(balls, particles) +
          sizeof(layout::BallWork) + 4 * first_list_words(counts.balls) +
          first_items(counts.balls) * sizeof(layout::BallItem);
 }
@@ -125,7 +125,7 @@ Status BallPasses::build_buffers() {
   ASPIC_TRY(balls_,
             Buffer::create(*context_, "balls", BALL_SLOTS * std::uint64_t{count_} * sizeof(layout::Ball)));
   ASPIC_TRY(bodies_, Buffer::create(*context_, "ball constants", count_ * sizeof(layout::BallBody)));
-  ASPIC_TRY(touches_, Buffer::create(*context_, "ball contacts", bodies * sizeof(layout::BallTouches)));
+  ASPIC_TRY(contacts_, Buffer::create(*context_, "ball contacts", bodies * sizeof(layout::BallContacts)));
   ASPIC_TRY(grid_words_, Buffer::create(*context_, "ball grid", grid_bytes(count_, particle_count_)));
   ASPIC_CHECK(allot(first_list_words(count_), first_items(count_)));
   first_bytes_ = work_.bytes() + items_.bytes();
@@ -209,7 +209,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
         surroundings.poses,
         {BINDING_BALLS, &balls_},
         k == fly ? Binding{BINDING_BALL_BODIES, &bodies_} : Binding{BINDING_BALL_ITEMS, &items_},
-        {BINDING_BALL_TOUCHES, &touches_},
+        {BINDING_BALL_CONTACTS, &contacts_},
         {BINDING_BALL_GRID, &grid_words_},
         {BINDING_BALL_WORK, &work_},
         {BINDING_CONTROL, surroundings.control}};
@@ -254,7 +254,7 @@ void BallPasses::dispatch_indirect(const Queue& queue, Kernel kernel, std::size_
 
 /// Whom each body touches, all of it before anyone receives anything: where room is missing, the step can be
 /// repeated.
-void BallPasses::find_touches(const Queue& queue) const {
+void BallPasses::find_contacts(const Queue& queue) const {
   const ReadBy next = ReadBy::compute_pass, counted = ReadBy::compute_pass | ReadBy::indirect;
   const std::uint64_t marks = count_ * mark_words(particle_count_, mark_shift(count_, particle_count_));
   dispatch(queue, clear, static_cast<std::uint32_t>(grid_buckets(count_) + marks));
@@ -302,7 +302,7 @@ void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t ste
     faces_.begin_step(step, parity);
   }
   dispatch(queue, fly, count_);
-  find_touches(queue);
+  find_contacts(queue);
   faces_.queue_find(queue.states);
   for (std::uint32_t phase = 0; phase < BALL_PHASES; ++phase) queue_phase(queue, phase);
   faces_.queue_meet(queue.states, implicit_ ? ReadBy(ReadBy::compute_pass) : last);

@@ -118,7 +118,7 @@ class BallPasses {
   void dispatch(const Queue& queue, Kernel kernel, std::uint32_t items,
                 gl::ReadBy readers = gl::ReadBy::compute_pass) const;
   void dispatch_indirect(const Queue& queue, Kernel kernel, std::size_t arguments) const;
-  void find_touches(const Queue& queue) const;
+  void find_contacts(const Queue& queue) const;
   void queue_phase(const Queue& queue, std::uint32_t phase) const;
 
   gl::Context* context_ = nullptr;
@@ -126,7 +126,7 @@ class BallPasses {
   std::uint32_t count_ = 0, particle_count_ = 0;
   std::uint64_t list_capacity_ = 0, item_capacity_ = 0, first_bytes_ = 0;
   bool grid_ = false, implicit_ = false;
-  gl::Buffer balls_, bodies_, touches_, grid_words_, work_, items_;
+  gl::Buffer balls_, bodies_, contacts_, grid_words_, work_, items_;
   // By kernel; nothing where the scene needs none.
   std::array<std::shared_ptr<const gl::Program>, kernel_count> programs_;
   std::array<std::optional<gl::Pass>, kernel_count> passes_;

@@ -47,7 +47,7 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
             Buffer::of(context_, "simulation constants", std::span(&block, 1), gl::BufferKind::uniform));
   ASPIC_CHECK(pulls_.build(context_));
   ASPIC_CHECK(poses_.build(context_, *model_));
-  ASPIC_CHECK(touch_.build(context_, *model_));
+  ASPIC_CHECK(contact_.build(context_, *model_));
   const IncidentWords words = incident_words(*model_, path_);
   if (const GpuSolver* other = options.share_springs_of) {
     const auto& theirs = other->spring_buffers();
@@ -77,7 +77,7 @@ void DeviceSolver::take(const ConstStateView& state, std::uint64_t step) {
   gl::barrier(gl::ReadBy::copy);
   states_[0].upload_items(particles);
   balls_.load(state, step);
-  touch_.forget();
+  contact_.forget();
   current_ = 0;
   ball_slot_ = 0;
   base_step_ = step;
@@ -148,7 +148,7 @@ Status DeviceSolver::take_constants(SharedModel next, std::uint64_t step) {
   poses_.set_model(*model_);
   lengths_.set_model(*model_);
   balls_.set_model(*model_);
-  touch_.set_model(*model_);
+  contact_.set_model(*model_);
   if (state) take(view_of(std::as_const(*state)), state->step);
   return context_.check();
 }

@@ -8,12 +8,12 @@
 #include "gpu/pass.h"
 #include "gpu/program.h"
 #include "gpu_solver/ball_passes.h"
+#include "gpu_solver/contact_buffers.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
 #include "gpu_solver/lengths.h"
 #include "gpu_solver/step_inputs.h"
-#include "gpu_solver/touch_buffers.h"
 #include "model/counts.h"
 
 namespace aspic {
@@ -42,7 +42,7 @@ class DeviceSolver : public GpuSolver {
   std::string description() const final;
   Precision precision() const final { return Precision::single; }
   const Model& model() const final { return *model_; }
-  std::uint64_t bytes() const final { return bytes_ + balls_.grown_bytes() + touch_.grown_bytes(); }
+  std::uint64_t bytes() const final { return bytes_ + balls_.grown_bytes() + contact_.grown_bytes(); }
   DeviceState device_state() const final;
   gl::Context& context() const final { return context_; }
   ForcePath force_path() const final { return path_.path; }
@@ -91,7 +91,7 @@ class DeviceSolver : public GpuSolver {
     if (profiler_) profiler_->mark(kind);
   }
   /// Whether steps under way may be carried out after what the host says next.
-  virtual bool repeats_steps() const { return balls_.any() || touch_.any(); }
+  virtual bool repeats_steps() const { return balls_.any() || contact_.any(); }
   /// Queues steps and takes in what came of earlier ones, for advance().
   virtual Status take_steps(std::uint64_t steps) = 0;
   /// Waits for the queued steps, so that state and step number are those of good steps.
@@ -117,7 +117,7 @@ class DeviceSolver : public GpuSolver {
   PoseBuffer poses_;      // of moving terrain
   LengthBuffer lengths_;  // of actuated springs
   BallPasses balls_;
-  TouchBuffers touch_;  // of bodies
+  ContactBuffers contact_;  // of bodies
   gl::Buffer simulation_;
 
   std::uint64_t base_step_ = 0;    // step number of the loaded state

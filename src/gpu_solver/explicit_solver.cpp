@@ -4,10 +4,10 @@
 #include <deque>
 
 #include "gpu/read_ring.h"
+#include "gpu_solver/contact_passes.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/group_size.h"
 #include "gpu_solver/queue_depth.h"
-#include "gpu_solver/touch_passes.h"
 #include "model/integrator.h"
 #include "model/springs.h"
 
@@ -68,7 +68,7 @@ class ExplicitSolver final : public DeviceSolver {
   void dispatch(const std::optional<ItemPass>& pass, Kind kind, std::span<const Binding> buffers,
                 ReadBy readers) const;
   Status build_rest(const KernelOptions& kernels, std::vector<Binding> bindings);
-  void queue_rest(const TouchPasses::States& states, std::uint32_t step_index, std::uint32_t stage,
+  void queue_rest(const ContactPasses::States& states, std::uint32_t step_index, std::uint32_t stage,
                   ReadBy readers) const;
   void queue_step(std::uint32_t step_index, bool last_of_queue);
   Result<std::uint64_t> take_look();
@@ -82,7 +82,7 @@ class ExplicitSolver final : public DeviceSolver {
   }
 
   const Staged& method_;
-  TouchPasses touch_passes_{touch_};
+  ContactPasses contact_passes_{contact_};
   std::shared_ptr<const gl::Program> rest_program_;  // where stages are two passes
   std::optional<gl::Pass> rest_pass_;
   Buffer sums_, control_, forces_;
@@ -147,8 +147,8 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                       static_cast<std::uint32_t>(spring_count(*model_))));
   }
   if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
-  ASPIC_CHECK(touch_passes_.build(context_, kernels, {constants(), control}));
-  if (touch_.any() || options.split_stages) {
+  ASPIC_CHECK(contact_passes_.build(context_, kernels, {constants(), control}));
+  if (contact_.any() || options.split_stages) {
     ASPIC_CHECK(build_rest(stage_kernels, {constants(), control, pulls_.binding(), poses_.binding()}));
     // Forces know nothing of terrain and method, so that many scenes share their kernels.
     std::erase_if(stage_kernels.defines, [](const gl::Define& define) {
@@ -156,7 +156,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                                   "ASPIC_ONE_STAGE"};
       return std::ranges::find(of_the_rest, define.name) != std::end(of_the_rest);
     });
-    stage_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
+    stage_kernels.defines.push_back({"ASPIC_BODY_CONTACT", "1"});
   }
   const std::uint32_t by_device = context_.info().is_software ? software_run : 1;
   const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
@@ -175,12 +175,12 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
 
 /// What follows the forces of springs, and of contact between bodies.
 Status ExplicitSolver::build_rest(const KernelOptions& kernels, std::vector<Binding> bindings) {
-  ASPIC_TRY(rest_program_, kernels.start("compute/touch_finish.comp"));
+  ASPIC_TRY(rest_program_, kernels.start("compute/contact_finish.comp"));
   rest_pass_.emplace(*rest_program_, std::move(bindings), ReadBy::compute_pass);
   return {};
 }
 
-void ExplicitSolver::queue_rest(const TouchPasses::States& states, std::uint32_t step_index,
+void ExplicitSolver::queue_rest(const ContactPasses::States& states, std::uint32_t step_index,
                                 std::uint32_t stage, ReadBy readers) const {
   rest_program_->set(LOCATION_STEP, step_index);
   rest_program_->set(LOCATION_STAGE, stage);
@@ -211,7 +211,7 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
   poses_.cover(step_index, 1);
   lengths_.cover(step_index, 1);
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
-  if (touch_.any()) touch_passes_.queue_start(states_[current_], step_index);
+  if (contact_.any()) contact_passes_.queue_start(states_[current_], step_index);
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
   for (const auto* pass : {&spring_pass_, &lattice_pass_, &plain_pass_, &mixed_pass_, &particle_pass_})
     if (*pass) (*pass)->program().set(LOCATION_STEP, step_index);
@@ -222,8 +222,8 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     for (const auto* pass : {&lattice_pass_, &plain_pass_, &mixed_pass_, &particle_pass_})
       if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
     if (spring_pass_ && lengths_.any()) spring_pass_->program().set(LOCATION_STAGE, s);
-    const TouchPasses::States touching = {&states_[current_], &states_[stage_state], &states_[out]};
-    if (touch_.any()) touch_passes_.queue_find(touching, step_index, time_of(step_index));
+    const ContactPasses::States in_contact = {&states_[current_], &states_[stage_state], &states_[out]};
+    if (contact_.any()) contact_passes_.queue_find(in_contact, step_index, time_of(step_index));
     const Binding stage = {BINDING_STAGE_STATE, &states_[stage_state]};
     const std::array<Binding, 6> buffers = {{stage,
                                              {BINDING_START_STATE, &states_[current_]},
@@ -243,8 +243,8 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     dispatch(mixed_pass_, cells_kind, buffers, ReadBy::nobody);
     dispatch(particle_pass_, particles_kind, buffers, ReadBy::nobody);
     gl::barrier(rest_pass_ ? ReadBy(ReadBy::compute_pass) : readers);
-    if (touch_.any()) touch_passes_.queue_act(touching, step_index);
-    if (rest_pass_) queue_rest(touching, step_index, s, readers);
+    if (contact_.any()) contact_passes_.queue_act(in_contact, step_index);
+    if (rest_pass_) queue_rest(in_contact, step_index, s, readers);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_slot_,
@@ -267,9 +267,9 @@ Status ExplicitSolver::carry_out(std::uint64_t steps, bool wait) {
       steps += *undone;
     } else if (steps > 0) {
       keep_counting();
-      if (!touch_.fresh()) ASPIC_CHECK(touch_.refresh(states_[current_]));
+      if (!contact_.fresh()) ASPIC_CHECK(contact_.refresh(states_[current_]));
       std::uint64_t worth = depth_.next();
-      if (touch_.any()) worth = std::min(worth, touch_.patience());
+      if (contact_.any()) worth = std::min(worth, contact_.patience());
       steps -= queue_steps(static_cast<std::uint32_t>(std::min(steps, worth)));
     } else {
       break;
@@ -317,7 +317,7 @@ Result<std::uint64_t> ExplicitSolver::take_look() {
     return *unusable_;
   }
   passes_before_ = least;
-  if (touch_.any()) touch_.held(good);
+  if (contact_.any()) contact_.held(good);
   if (!full && !bad) return std::uint64_t{0};
   const std::uint64_t undone = std::uint64_t{steps_since_} - queue.first_step - good;
   current_ = (queue.first_state + good) % 3;
@@ -327,7 +327,7 @@ Result<std::uint64_t> ExplicitSolver::take_look() {
   if (full) {
     // The step is repeated from the state it began with, where nothing was written.
     if (control.stale != 0)
-      touch_.forget();
+      contact_.forget();
     else
       ASPIC_CHECK(balls_.grow());
     restart();

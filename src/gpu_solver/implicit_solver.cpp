@@ -6,8 +6,8 @@
 
 #include "gpu/read_ring.h"
 #include "gpu_solver/device_solver.h"
+#include "gpu_solver/implicit_contact_passes.h"
 #include "gpu_solver/implicit_kernels.h"
-#include "gpu_solver/implicit_touch_passes.h"
 #include "gpu_solver/queue_depth.h"
 
 namespace aspic {
@@ -59,7 +59,7 @@ class ImplicitSolver final : public DeviceSolver {
   Status repeat_balls();
   void wait_for_lists();
   Status make_lists();
-  bool eases() const { return touch_.any() && time() < touch_.eased_until(); }
+  bool eases() const { return contact_.any() && time() < contact_.eased_until(); }
   /// Of the state last seen, since the initial state [s], as in src/collision/contact_search.cpp.
   double time() const { return static_cast<double>(base_step_ + solve_.step) * model_->simulation.timestep; }
   void begin_step() const;
@@ -71,7 +71,7 @@ class ImplicitSolver final : public DeviceSolver {
   void write_solve();
   void take_statistics(const layout::Solve& before);
 
-  ImplicitTouchPasses touch_passes_{touch_};
+  ImplicitContactPasses contact_passes_{contact_};
   Buffer trial_, search_, own_, solve_buffer_;
   std::vector<ItemPass> passes_;          // by Kernel
   std::vector<Binding> buffers_;          // of every pass
@@ -92,8 +92,8 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   const std::uint64_t particles = model_->particle_count(), vectors = particles * sizeof(layout::vec4);
   ASPIC_TRY(trial_, Buffer::create(context_, "trial velocities", vectors));
   ASPIC_TRY(own_, Buffer::create(context_, "solver vectors", OWN_VECTORS * vectors));
-  const std::uint64_t touch_vectors = touch_.any() ? TOUCH_VECTORS * vectors : 0;
-  ASPIC_TRY(search_, Buffer::create(context_, "search direction", vectors + touch_vectors));
+  const std::uint64_t contact_vectors = contact_.any() ? CONTACT_VECTORS * vectors : 0;
+  ASPIC_TRY(search_, Buffer::create(context_, "search direction", vectors + contact_vectors));
   ASPIC_TRY(solve_buffer_, Buffer::create(context_, "solve control", solve_bytes(particles)));
   looks_.emplace(context_, sizeof(layout::Solve));
   const std::vector<Binding> bindings = {constants(), pulls_.binding(), poses_.binding(),
@@ -102,14 +102,14 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
               {BINDING_TRIAL, &trial_},       {BINDING_SEARCH, &search_},
               {BINDING_OWN, &own_},           {BINDING_INCIDENT, &springs_->incident}};
   KernelOptions own_kernels = kernels;
-  if (touch_.any()) own_kernels.defines.push_back({"ASPIC_TOUCH", "1"});
+  if (contact_.any()) own_kernels.defines.push_back({"ASPIC_BODY_CONTACT", "1"});
   if (lengths_.any()) own_kernels.defines.push_back({"ASPIC_ACTUATED", "1"});
-  ASPIC_CHECK(touch_passes_.build(kernels, {constants(),
-                                            {BINDING_SOLVE, &solve_buffer_},
-                                            {BINDING_STATE_A, &states_[0]},
-                                            {BINDING_STATE_B, &states_[1]},
-                                            {BINDING_TRIAL, &trial_},
-                                            {BINDING_SEARCH, &search_}}));
+  ASPIC_CHECK(contact_passes_.build(kernels, {constants(),
+                                              {BINDING_SOLVE, &solve_buffer_},
+                                              {BINDING_STATE_A, &states_[0]},
+                                              {BINDING_STATE_B, &states_[1]},
+                                              {BINDING_TRIAL, &trial_},
+                                              {BINDING_SEARCH, &search_}}));
   for (const KernelRow& row : implicit_kernels) {
     ASPIC_TRY(auto made, item_pass(own_kernels, row.path, bindings, model_->particle_count()));
     passes_.push_back(std::move(made));
@@ -140,7 +140,7 @@ std::uint64_t ImplicitSolver::most_rounds() const {
   const ImplicitSettings& implicit = model_->simulation.implicit;
   const auto iterations = static_cast<std::uint64_t>(implicit.newton_iterations),
              rounds = static_cast<std::uint64_t>(implicit.cg_iterations) + max_halvings + 3;
-  const std::uint64_t solves = touch_.any() ? 2 : 1;
+  const std::uint64_t solves = contact_.any() ? 2 : 1;
   return solves * (iterations + 1) * rounds;
 }
 
@@ -163,9 +163,9 @@ void ImplicitSolver::take_statistics(const layout::Solve& before) {
 
 void ImplicitSolver::queue_rounds(std::uint32_t rounds) const {
   for (std::uint32_t r = 0; r < rounds; ++r) {
-    if (touch_.acts()) touch_passes_.queue_forces(static_cast<float>(time()));
+    if (contact_.acts()) contact_passes_.queue_forces(static_cast<float>(time()));
     dispatch(evaluate);
-    if (touch_.acts()) touch_passes_.queue_product();
+    if (contact_.acts()) contact_passes_.queue_product();
     for (const Kernel kernel : {apply, update, direction}) dispatch(kernel);
   }
   dispatch(finish, balls_.any() ? ReadBy::compute_pass : anyone);
@@ -229,7 +229,7 @@ Result<std::uint32_t> ImplicitSolver::work_on(std::uint64_t steps, bool must) {
   } else {
     ASPIC_CHECK(make_lists());
     std::uint64_t worth =
-        touch_.any() ? std::min<std::uint64_t>(depth_.next(), touch_.patience()) : depth_.next();
+        contact_.any() ? std::min<std::uint64_t>(depth_.next(), contact_.patience()) : depth_.next();
     if (eases()) worth = 1;
     queued = queue_steps(static_cast<std::uint32_t>(std::min(steps, worth)));
     if (queued == 0) ASPIC_CHECK(take_look());  // the table of poses has no room
@@ -267,23 +267,23 @@ std::uint32_t ImplicitSolver::queue_steps(std::uint32_t wanted) {
 }
 
 void ImplicitSolver::begin_step() const {
-  if (touch_.any()) touch_passes_.queue_start();
-  if (touch_.any()) passes_[begin].program().set(LOCATION_TOUCH_COUNT, touch_.encounter_count());
+  if (contact_.any()) contact_passes_.queue_start();
+  if (contact_.any()) passes_[begin].program().set(LOCATION_CONTACT_COUNT, contact_.encounter_count());
   dispatch(begin);
 }
 
 /// Steps wait for lists of what is near that hold; nothing is queued.
 void ImplicitSolver::wait_for_lists() {
   forget_queues();
-  touch_.forget();
+  contact_.forget();
   solve_.stale = 0;
   solve_.phase = PHASE_BEGIN;
 }
 
 /// What is near bodies in the state last seen. Nothing may be queued if the lists do not hold.
 Status ImplicitSolver::make_lists() {
-  if (touch_.fresh()) return {};
-  ASPIC_CHECK(touch_.refresh(states_[solve_.parity]));
+  if (contact_.fresh()) return {};
+  ASPIC_CHECK(contact_.refresh(states_[solve_.parity]));
   search_.clear();  // only listed particles write there
   solve_.target_step = target_;
   write_solve();
@@ -342,7 +342,7 @@ Status ImplicitSolver::take_look() {
   depth_.took(ended, seconds);
   round_depth_.took(std::max(worked, 1u), seconds);
   if (ended > 0) queued_rounds_ = 0;
-  if (touch_.any()) touch_.held(ended);
+  if (contact_.any()) contact_.held(ended);
   if (solve_.full != 0) return repeat_balls();
   if (solve_.stale != 0) wait_for_lists();
   if (solve_.phase == PHASE_HALTED) {

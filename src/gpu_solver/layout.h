@@ -13,13 +13,13 @@ namespace aspic::layout {
 #include "compute/layout.glsl"
 
 static_assert(GEOMETRY_SIZE == geometry_size && SAME_SURFACE_SHARE == same_surface_share);
-static_assert(sizeof(BallTouches) == 32 && offsetof(BallTouches, items) == 28);
+static_assert(sizeof(BallContacts) == 32 && offsetof(BallContacts, items) == 28);
 static_assert(sizeof(BallItem) == 128 && offsetof(BallItem, acts) == 32 && offsetof(BallItem, linear) == 96);
 static_assert(sizeof(BallWork) == 64 && offsetof(BallWork, word_groups) == 16);
 static_assert(sizeof(BallFacePair) == 80 && offsetof(BallFacePair, linear) == 32 &&
               sizeof(BallFaceCount) == 8);
-static_assert(sizeof(TouchEncounter) == 88 && offsetof(TouchEncounter, carrier_weight0) == 36);
-static_assert(sizeof(TouchRecord) == 96 && sizeof(TouchParticle) == 32);
+static_assert(sizeof(ContactCandidates) == 88 && offsetof(ContactCandidates, carrier_weight0) == 36);
+static_assert(sizeof(ContactRecord) == 96 && sizeof(ContactParticle) == 32);
 static_assert(sizeof(BallBody) == 16 && offsetof(BallBody, launch_step) == 8);
 static_assert(offsetof(Simulation, ball_count) == 116 && offsetof(Simulation, ball_restitution) == 128);
 static_assert(sizeof(Stage) == 16 && sizeof(Control) == 32 && offsetof(Control, passes) == 16);

@@ -5,11 +5,11 @@
 #include "base/result.h"
 #include "model/actuators.h"
 #include "model/bodies.h"
+#include "model/contact_surface.h"
 #include "model/counts.h"
 #include "model/integrator.h"
 #include "model/springs.h"
 #include "model/terrain.h"
-#include "model/touch_surface.h"
 
 namespace aspic {
 namespace {

@@ -92,13 +92,13 @@ void Comparison::remove_ghost() {
 
 void Comparison::lead() {
   if (!several()) return;
-  Simulation& leader = runs_.leader;
+  PlaybackSession& leader = runs_.leader;
   leader.pacer().limit(Hold::comparison, settled() ? std::nullopt : std::optional(leader.step()));
 }
 
 Status Comparison::follow(double dt, double budget) {
   if (!several()) return {};
-  const Simulation& leader = runs_.leader;
+  const PlaybackSession& leader = runs_.leader;
   VariantRun* const ahead = clock_.begin_frame(dt);
   const bool all_there = settled();
   runs_.settled = !leader.playback().seeking() && !leader.rebuild().changing();

@@ -12,7 +12,7 @@
 #include "base/result.h"
 #include "playback/comparison_clock.h"
 #include "playback/ghost_run.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 #include "playback/variant_run.h"
 
 namespace aspic {
@@ -22,7 +22,7 @@ namespace aspic {
 class Comparison {
  public:
   /// The references must outlive it. `scene` is the leader's.
-  Comparison(Simulation& leader, const Scene& scene, const BackendChoice& asked)
+  Comparison(PlaybackSession& leader, const Scene& scene, const BackendChoice& asked)
       : scene_(scene), asked_(asked), runs_{leader}, clock_(runs_) {}
 
   // ---- the runs ----
@@ -32,8 +32,8 @@ class Comparison {
   bool several() const { return runs_.several; }
   /// Runs in all, the leader included, which is number 0.
   std::size_t count() const { return runs_.count(); }
-  const Simulation& run(std::size_t i) const { return runs_.run(i); }
-  Simulation& run(std::size_t i) { return i == 0 ? runs_.leader : runs_.variants[i - 1]->simulation(); }
+  const PlaybackSession& run(std::size_t i) const { return runs_.run(i); }
+  PlaybackSession& run(std::size_t i) { return i == 0 ? runs_.leader : runs_.variants[i - 1]->simulation(); }
   const Scene& scene(std::size_t i) const { return i == 0 ? scene_ : runs_.variants[i - 1]->scene(); }
   std::vector<Difference> differences() const;
   /// A difference that cannot be had.

@@ -12,7 +12,7 @@ VariantRun* ComparisonClock::stand_in() const {
   return found == runs_.variants.end() ? nullptr : found->get();
 }
 
-const Simulation& ComparisonClock::setter() const {
+const PlaybackSession& ComparisonClock::setter() const {
   return others_go_on() ? stand_in()->simulation() : runs_.leader;
 }
 
@@ -25,7 +25,7 @@ bool ComparisonClock::toggle() {
 
 double ComparisonClock::time() const {
   if (!runs_.several) return runs_.leader.time();
-  const Simulation& run = setter();
+  const PlaybackSession& run = setter();
   for (std::size_t i = 0; i < runs_.count(); ++i)
     if (&runs_.run(i) == &run) return runs_.shown_time(i);
   return runs_.leader.time();
@@ -34,7 +34,7 @@ double ComparisonClock::time() const {
 bool ComparisonClock::is_shown() const {
   if (!runs_.several) return true;
   if (!runs_.settled || runs_.shown.size() != runs_.count()) return false;
-  const Simulation& run = setter();
+  const PlaybackSession& run = setter();
   for (std::size_t i = 0; i < runs_.count(); ++i)
     if (&runs_.run(i) == &run) return runs_.shown[i].time == run.time();
   return false;
@@ -47,7 +47,7 @@ void ComparisonClock::limit(Hold source, std::optional<std::uint64_t> step) {
 }
 
 double ComparisonClock::end_time() const {
-  const auto end_of = [](const Simulation& s) {
+  const auto end_of = [](const PlaybackSession& s) {
     const History& history = s.playback().history();
     return history.time(history.end_moment());
   };
@@ -79,7 +79,7 @@ double ComparisonClock::real_time_factor() const {
 double ComparisonClock::figures_time() const {
   double limit = time();
   for (std::size_t i = 0; i < runs_.count(); ++i) {
-    const Simulation& run = runs_.run(i);
+    const PlaybackSession& run = runs_.run(i);
     const auto& energies = run.samples().energies();
     const double half = 0.5 * run.model().simulation.timestep;
     if (!run.divergence() && !energies.empty()) limit = std::min(limit, energies.back().time + half);
@@ -91,7 +91,7 @@ double ComparisonClock::figures_time() const {
 
 VariantRun* ComparisonClock::begin_frame(double dt) {
   measure(dt);
-  const Simulation& leader = runs_.leader;
+  const PlaybackSession& leader = runs_.leader;
   VariantRun* const ahead = leader.divergence() ? stand_in() : nullptr;
   // They go on where the leader did.
   if (ahead && was_running_) others_run_ = true;

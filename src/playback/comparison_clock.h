@@ -7,7 +7,7 @@
 
 #include "base/result.h"
 #include "playback/pacer.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 #include "playback/variant_run.h"
 
 namespace aspic {
@@ -21,14 +21,14 @@ struct ShownState {
 
 /// The runs compared, with what is shown of them.
 struct ComparedRuns {
-  Simulation& leader;  ///< the scene's own run, number 0
+  PlaybackSession& leader;  ///< the scene's own run, number 0
   std::vector<std::unique_ptr<VariantRun>> variants = {};
   bool several = false;                ///< more than the leader is shown
   bool settled = true;                 ///< all have come to one time, which is shown
   std::vector<ShownState> shown = {};  ///< of each run; empty: nothing is kept
 
   std::size_t count() const { return variants.size() + 1; }
-  const Simulation& run(std::size_t i) const { return i == 0 ? leader : variants[i - 1]->simulation(); }
+  const PlaybackSession& run(std::size_t i) const { return i == 0 ? leader : variants[i - 1]->simulation(); }
   double shown_time(std::size_t i) const { return i < shown.size() ? shown[i].time : run(i).time(); }
 };
 
@@ -38,7 +38,7 @@ class ComparisonClock {
   explicit ComparisonClock(ComparedRuns& runs) : runs_(runs) {}
 
   /// The run that sets it: the leader, or after its divergence the first that continues.
-  const Simulation& setter() const;
+  const PlaybackSession& setter() const;
   /// The leader diverged and others continue.
   bool others_go_on() const { return runs_.leader.divergence() && stand_in() != nullptr; }
   /// Starts or pauses those that continue. False if the leader is the one to start.

@@ -11,9 +11,10 @@ constexpr std::uint64_t most_bytes = std::uint64_t{128} << 20;
 }  // namespace
 
 Result<std::unique_ptr<GhostRun>> GhostRun::create(gl::Context& context, const Scene& scene,
-                                                   const Simulation& of, const BackendChoice& asked) {
+                                                   const PlaybackSession& of, const BackendChoice& asked) {
   std::unique_ptr<GhostRun> ghost(new GhostRun(scene));
-  ASPIC_TRY(ghost->simulation_, Simulation::create(context, ghost->scene_, of.present().backend(), asked));
+  ASPIC_TRY(ghost->simulation_,
+            PlaybackSession::create(context, ghost->scene_, of.present().backend(), asked));
   History history = of.playback().history();
   history.thin(most_bytes);
   ASPIC_CHECK(ghost->simulation_->playback().replay(std::move(history)));

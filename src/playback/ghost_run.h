@@ -6,7 +6,7 @@
 
 #include "aspic/scene.h"
 #include "base/result.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 
 namespace aspic {
 
@@ -15,11 +15,11 @@ class GhostRun {
   /// The run so far of `of`, which is halted; `scene` is its scene. Errors: those of Simulation::create() and
   /// Playback::replay().
   static Result<std::unique_ptr<GhostRun>> create(gl::Context& context, const Scene& scene,
-                                                  const Simulation& of, const BackendChoice& asked);
+                                                  const PlaybackSession& of, const BackendChoice& asked);
 
   const Scene& scene() const { return scene_; }
-  Simulation& simulation() { return *simulation_; }
-  const Simulation& simulation() const { return *simulation_; }
+  PlaybackSession& simulation() { return *simulation_; }
+  const PlaybackSession& simulation() const { return *simulation_; }
   /// The last time that it has come to [s].
   double end() const;
   /// To a time [s], or as near as its run has come to, seen as `view` says. Errors: those of Simulation.
@@ -30,7 +30,7 @@ class GhostRun {
  private:
   explicit GhostRun(const Scene& scene) : scene_(scene) {}
   Scene scene_;
-  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<PlaybackSession> simulation_;
   bool arrived_ = false;
 };
 

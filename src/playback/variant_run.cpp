@@ -11,7 +11,8 @@
 
 namespace aspic {
 Result<std::unique_ptr<VariantRun>> VariantRun::create(gl::Context& context, const Scene& scene,
-                                                       const Simulation& leader, const BackendChoice& asked,
+                                                       const PlaybackSession& leader,
+                                                       const BackendChoice& asked,
                                                        const Difference& difference) {
   std::unique_ptr<VariantRun> made(new VariantRun(difference, asked));
   BackendChoice choice = asked;
@@ -19,9 +20,10 @@ Result<std::unique_ptr<VariantRun>> VariantRun::create(gl::Context& context, con
   ASPIC_TRY(auto run, varied(scene, choice, std::span(&difference, 1)));
   made->own_backend_ = difference.key == backend_key;
   made->scene_ = std::move(run.scene);
-  ASPIC_TRY(made->simulation_,
-            Simulation::create(context, made->scene_,
-                               run.backend.row ? *run.backend.row : leader.present().backend(), run.backend));
+  ASPIC_TRY(
+      made->simulation_,
+      PlaybackSession::create(context, made->scene_,
+                              run.backend.row ? *run.backend.row : leader.present().backend(), run.backend));
   made->leader_run_ = leader.present().run_number();
   made->leader_view_ = scene.view;
   made->adopted_ = false;
@@ -29,7 +31,7 @@ Result<std::unique_ptr<VariantRun>> VariantRun::create(gl::Context& context, con
 }
 
 /// Inputs on what is here too.
-Inputs VariantRun::fitting(const Simulation& leader, Inputs inputs) const {
+Inputs VariantRun::fitting(const PlaybackSession& leader, Inputs inputs) const {
   const bool balls = simulation_->model().ball_count() == leader.model().ball_count();
   const bool particles = has_particles_of(leader);
   std::erase_if(inputs.pulls, [&](const Pull& pull) { return pull.ball ? !balls : !particles; });
@@ -42,8 +44,8 @@ std::uint64_t VariantRun::step_at(double time) const {
 }
 
 /// The run restarted, or is another one: so is this one.
-Status VariantRun::take_over(const Scene& scene, const Simulation& leader) {
-  Simulation& own = *simulation_;
+Status VariantRun::take_over(const Scene& scene, const PlaybackSession& leader) {
+  PlaybackSession& own = *simulation_;
   if (!own_backend_ && &leader.present().backend() != &own.present().backend())
     ASPIC_CHECK(own.rebuild().set_backend(leader.present().backend()));
   if (adopted_model_ != leader.present().model_number()) {
@@ -63,8 +65,8 @@ Status VariantRun::take_over(const Scene& scene, const Simulation& leader) {
 }
 
 /// The leader's scene with the difference, and its hands, from the time at which it got them.
-Status VariantRun::adopt_setup(const Simulation& leader) {
-  Simulation& own = *simulation_;
+Status VariantRun::adopt_setup(const PlaybackSession& leader) {
+  PlaybackSession& own = *simulation_;
   adopted_ = true;
   Scene base = scene_;
   base.model = leader.present().setup().settings;
@@ -89,7 +91,7 @@ Status VariantRun::adopt_setup(const Simulation& leader) {
 
 /// Where the history has it, there; else forward from the end, or from here if nothing was before.
 Status VariantRun::go_to(std::uint64_t step) {
-  Simulation& own = *simulation_;
+  PlaybackSession& own = *simulation_;
   stuck_ = false;
   own.pacer().catch_up(true);
   if (own.playback().seeking()) return {};
@@ -107,8 +109,8 @@ Status VariantRun::go_to(std::uint64_t step) {
   return {};
 }
 
-Status VariantRun::follow(const Scene& scene, const Simulation& leader, double dt, double budget) {
-  Simulation& own = *simulation_;
+Status VariantRun::follow(const Scene& scene, const PlaybackSession& leader, double dt, double budget) {
+  PlaybackSession& own = *simulation_;
   arrived_ = false;
   ASPIC_CHECK(take_over(scene, leader));
   const History& history = leader.playback().history();
@@ -147,12 +149,12 @@ Status VariantRun::follow(const Scene& scene, const Simulation& leader, double d
 /// Where the others pause at the step that it has come to, so does this: paused runs have figures of the very
 /// state that is shown.
 void VariantRun::rest(std::uint64_t step, bool paused) {
-  Simulation& own = *simulation_;
+  PlaybackSession& own = *simulation_;
   if (paused && own.running() && own.step() == step && !own.busy()) own.set_running(false);
 }
 
 Status VariantRun::recall(double time, double dt, double budget) {
-  Simulation& own = *simulation_;
+  PlaybackSession& own = *simulation_;
   own.stepper().acts().followed = {};
   const Moment moment = own.playback().history().nearest(time);
   if (!own.playback().seeking() && moment != own.playback().here()) ASPIC_CHECK(own.playback().seek(moment));
@@ -162,7 +164,7 @@ Status VariantRun::recall(double time, double dt, double budget) {
 }
 
 Status VariantRun::go_on_to(double time, bool paused, double dt, double budget) {
-  Simulation& own = *simulation_;
+  PlaybackSession& own = *simulation_;
   own.stepper().acts().followed = {};
   const std::uint64_t wanted = step_at(time);
   ASPIC_CHECK(go_to(wanted));
@@ -173,7 +175,7 @@ Status VariantRun::go_on_to(double time, bool paused, double dt, double budget) 
 }
 
 Status VariantRun::lead(const Pacer& pace, bool running, bool waits, double dt, double budget) {
-  Simulation& own = *simulation_;
+  PlaybackSession& own = *simulation_;
   own.stepper().acts().followed = {};
   own.pacer().catch_up(false);
   own.pacer().set_pace(pace.pace());

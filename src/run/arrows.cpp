@@ -89,7 +89,7 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
   set.room = longest * (spacing > 0.0 ? spacing : 1.0) * stride;
   set.noise = noise_of(model, state);
   const SpringFinder springs(model);
-  TouchForces bodies_touched(model);
+  BodyContactForces bodies_touched(model);
   if (wanted.contacts || wanted.net) bodies_touched.find(springs, state, inputs);
   const auto add = [&](bool shown, std::uint32_t particle, const Vec3& value, ArrowKind kind) {
     if (shown) set.arrows.push_back({state.position[particle], value, kind});

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "aspic/analysis.h"
+#include "model/contact_surface.h"
 #include "model/terrain.h"
-#include "model/touch_surface.h"
 #include "run/named_bodies.h"
 
 namespace aspic {
@@ -176,13 +176,13 @@ class StartCheck {
   /// With what a body has at the start and what it gains on its way to the terrain below its middle.
   void impact_speed() {
     if (terrain_.empty()) return;
-    const TouchSurfaces surfaces = touch_surfaces(model_);
+    const ContactSurfaces surfaces = contact_surfaces(model_);
     const double g = length(model_.simulation.gravity);
     name("impact-speed", "impacts on terrain may flatten cells for ever: ",
          "Slower, stiffer or lighter bodies take their shape again",
          [&](const Extent& extent) -> std::optional<std::string> {
            const Body& body = model_.bodies[extent.body];
-           const auto touch = std::ranges::find(surfaces.bodies, extent.body, &TouchBody::body);
+           const auto touch = std::ranges::find(surfaces.bodies, extent.body, &ContactBody::body);
            if (touch == surfaces.bodies.end() || !touch->closed || !body.lattice || extent.pinned)
              return std::nullopt;
            Vec3 sum;

@@ -186,9 +186,9 @@ void add_ball_checks(std::vector<Check>& checks) {
   add("roll", "with μ = 0.2 it rolls, a = 5/7·g·sin θ", rounding, true,
       [](const Subject& s) { return slope(s, 0.2, 5.0 / 7.0, 5.0 / 7.0); });
   // Below 2/7·tan θ = 0.165 it skids: a = g(sin θ − μ cos θ), ω̇·R = 5/2·μ·g·cos θ.
-  const double rubbed = 0.1 * std::sqrt(3.0);
+  const double after_friction = 0.1 * std::sqrt(3.0);
   add("skid", "with μ = 0.1 it skids, a = g(sin θ − μ cos θ), and friction turns it", rounding, true,
-      [=](const Subject& s) { return slope(s, 0.1, 1.0 - rubbed, 2.5 * rubbed); });
+      [=](const Subject& s) { return slope(s, 0.1, 1.0 - after_friction, 2.5 * after_friction); });
   add("spin", "spin turns a bounce: slip ends 2/7 in velocity, or friction is μ(1 + e)m|u|",
       at_most_text(64 * epsilon_double * 12.0, "m/s"), true, spin_turns_a_bounce);
   add("pit", "ball-pit after 20 s: deepest overlap of two balls", at_most_text(0.1, "of a radius"), false,

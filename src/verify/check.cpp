@@ -44,7 +44,7 @@ std::vector<Check> battery() {
        {add_order_checks, add_closed_form_checks, add_stability_checks, add_conservation_checks,
         add_force_checks, add_contact_checks, add_coulomb_checks, add_rest_checks, add_scene_checks,
         add_implicit_checks, add_body_checks, add_voxel_checks, add_actuation_checks, add_ball_checks,
-        add_touch_checks, add_touch_impact_checks, add_ball_face_checks, add_equality_checks,
+        add_body_contact_checks, add_contact_impact_checks, add_ball_face_checks, add_equality_checks,
         add_fast_checks})
     add(checks);
   return checks;

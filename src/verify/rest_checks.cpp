@@ -106,7 +106,7 @@ struct Rise {
 };
 
 Result<Rise> energy_rise(const Subject& subject, const Model& model, double duration) {
-  const auto touching = [&](const State& state) {
+  const auto in_contact = [&](const State& state) {
     return std::any_of(state.position.begin(), state.position.end(), [&](const Vec3& x) {
       return signed_distance(model.terrain[0], x) < model.contact.epsilon;
     });
@@ -118,7 +118,7 @@ Result<Rise> energy_rise(const Subject& subject, const Model& model, double dura
   for (std::uint64_t step = 0; step < steps_of(model, duration); ++step) {
     ASPIC_TRY(auto now, run(*solver, 1));
     const double energy = measure(model, now).total();
-    const bool was_contact = std::exchange(contact, touching(now));
+    const bool was_contact = std::exchange(contact, in_contact(now));
     if (!touched && contact) {
       touched = true;
       least = rise.start = energy;

@@ -23,7 +23,7 @@ Landed landed() {
   settings.cubes[0].velocity = {0.3, 0.0, 0.1};
   settings.goal_nets.resize(1);
   settings.goal_nets[0].particles = {3, 3, 3};
-  settings.contact.bodies = false;  // touch_forces_test.cpp has those of bodies
+  settings.contact.bodies = false;  // body_contact_forces_test.cpp has those of bodies
   Landed landed = {test::build(settings), {}, {}};
   landed.inputs.pulls = {{.particle = 7, .anchor = {0.5, 4.0, 0.0}, .stiffness = 90.0, .damping = 3.0},
                          {.particle = 7, .anchor = {0.0, 2.0, 1.0}, .stiffness = 20.0}};

@@ -27,7 +27,7 @@ class Comparison : public Stage {
  protected:
   aspic::Comparison& comparison() { return app().comparison; }
   app::ComparisonView& comparison_view() { return app().comparison_view; }
-  const Simulation& run(std::size_t i) { return comparison().run(i); }
+  const PlaybackSession& run(std::size_t i) { return comparison().run(i); }
   void settled() {
     frames(1);
     frames_until([&] { return comparison().settled(); });

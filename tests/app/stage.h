@@ -58,7 +58,7 @@ class Stage : public ::testing::Test {
   void close_window() { window_.reset(); }
 
   app::App& app() { return *app_; }
-  Simulation& simulation() { return app_->simulation; }
+  PlaybackSession& simulation() { return app_->simulation; }
   /// One picture, so many seconds after the last.
   void frame(double apart = 1.0 / 60.0);
   /// Pictures, so many seconds apart; at rest as many more, in no time, as the fine picture needs.

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "collision/contact_search.h"
-#include "cpu_reference/touching.h"
+#include "cpu_reference/bodies_in_contact.h"
 
 namespace aspic::collision {
 namespace {
@@ -28,7 +28,7 @@ Contact::Particles at(const Field<double>& x, const Field<double>& v) {
 }
 
 /// A candidate by its definition.
-bool holds(const Field<double>& x, const TouchTriangle& triangle, const V& P, double margin) {
+bool holds(const Field<double>& x, const SurfaceTriangle& triangle, const V& P, double margin) {
   for (Eigen::Index c = 0; c < 3; ++c) {
     double low = x(c, triangle.corner[0]), high = low;
     for (const std::uint32_t corner : triangle.corner) {
@@ -54,16 +54,16 @@ Candidates found_by(const Contact& contact) {
 }
 
 Candidates by_definition(const Model& model, const Field<double>& x) {
-  const TouchSurfaces all = touch_surfaces(model);
+  const ContactSurfaces all = contact_surfaces(model);
   Candidates found;
   for (std::size_t a = 0; a < all.bodies.size(); ++a) {
     for (std::size_t b = 0; b < all.bodies.size(); ++b) {
       if (a == b ? !model.contact.self : !model.contact.bodies) continue;
-      const TouchPair pair = touch_pair(model.contact, all.bodies[a], all.bodies[b], a == b);
+      const ContactPair pair = contact_pair(model.contact, all.bodies[a], all.bodies[b], a == b);
       for (std::uint32_t p = all.bodies[a].first_point;
            p < all.bodies[a].first_point + all.bodies[a].point_count; ++p) {
         const auto place = [&](const auto& of) {
-          const TouchPoint& point = all.points[p];
+          const SurfacePoint& point = all.points[p];
           return point.single()
                      ? V(of(point.carrier[0]))
                      : V(point.weight[0] * of(point.carrier[0]) + point.weight[1] * of(point.carrier[1]));
@@ -86,8 +86,8 @@ Candidates by_definition(const Model& model, const Field<double>& x) {
 
 /// The same as the reference finds them.
 Candidates by_brute_force(const Model& model, const Field<double>& x) {
-  const TouchSurfaces surfaces = touch_surfaces(model);
-  const physics::TouchTable<double> table(model.contact, surfaces.bodies, 0.0);
+  const ContactSurfaces surfaces = contact_surfaces(model);
+  const physics::PairTable<double> table(model.contact, surfaces.bodies, 0.0);
   Candidates found;
   physics::for_each_candidate<double>(
       model, surfaces, table, at(x, x),

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "cpu_reference/touching.h"
+#include "cpu_reference/bodies_in_contact.h"
 
 namespace aspic::collision::moving {
 namespace {
@@ -25,10 +25,10 @@ template <class Contact>
 std::vector<std::uint32_t> bits(Contact& contact, const Field<float>& x, const Field<float>& v) {
   std::vector<std::uint32_t> all;
   contact.find({components(x.data()), components(v.data()), 3});
-  for (const Touch<float>& touch : contact.touches()) {
+  for (const ContactPoint<float>& touch : contact.contacts()) {
     all.insert(all.end(), {touch.point, touch.triangle});
-    for (const float number : {touch.n.x(), touch.n.y(), touch.n.z(), touch.d, touch.push, touch.weight[0],
-                               touch.weight[2], touch.weight[3], touch.weight[4]})
+    for (const float number : {touch.n.x(), touch.n.y(), touch.n.z(), touch.d, touch.normal_force,
+                               touch.weight[0], touch.weight[2], touch.weight[3], touch.weight[4]})
       all.push_back(std::bit_cast<std::uint32_t>(number));
   }
   return all;

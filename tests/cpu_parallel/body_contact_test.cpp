@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include "analysis/touch_facts.h"
+#include "analysis/contact_facts.h"
 #include "aspic/inputs.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
@@ -64,7 +64,7 @@ TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsInEveryKindOfMotion) {
   for (test::ContactMotion& motion : test::contact_motions()) {
     SCOPED_TRACE(motion.name);
     if (motion.impact_share > 0.0) {
-      const double limit = touch_facts(test::build(motion.settings)).pairings.at(0).speed();
+      const double limit = contact_facts(test::build(motion.settings)).pairings.at(0).speed();
       motion.settings.cubes[0].velocity.y = -motion.impact_share * limit;
     }
     const Model model = test::build(motion.settings);

@@ -1,5 +1,5 @@
 // Pairs of bodies, turned at random, that meet at 0.9 of the speed up to which nothing passes
-// (touch_facts()).
+// (contact_facts()).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "analysis/body_overlap.h"
-#include "analysis/touch_facts.h"
+#include "analysis/contact_facts.h"
 #include "aspic/analysis.h"
 #include "base/split_mix.h"
 #include "cpu_parallel/cpu_solver.h"
@@ -108,8 +108,8 @@ Impact impact(const ImpactKind& kind, double share, std::uint64_t seed) {
   }
   settings.cubes[0].position = {-way, 0.1 * random.share() - 0.05, 0.1 * random.share() - 0.05};
   double speed = 0.0;
-  for (const TouchFacts facts = touch_facts(test::build(settings));
-       const TouchPairing& pairing : facts.pairings)
+  for (const ContactFacts facts = contact_facts(test::build(settings));
+       const ContactPairing& pairing : facts.pairings)
     if (facts.kinds.size() == 1 || pairing.a != pairing.b) speed = share * pairing.speed();
   const double mass = kind.first[0] * kind.first[1] * kind.first[2];
   const double back = sheet ? 0.0 : mass / (mass + other_mass);  // share of the speed that the other has

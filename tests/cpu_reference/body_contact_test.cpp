@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
+#include "cpu_reference/bodies_in_contact.h"
 #include "cpu_reference/integrators.h"
 #include "cpu_reference/step_dynamics.h"
-#include "cpu_reference/touching.h"
 #include "support/integrator_names.h"
 #include "support/lattice_bodies.h"
 
@@ -261,23 +261,24 @@ TEST(BodyContact, TurnsBackWhatIsSlowerThanSound) {
 /// The deepest of 16 points along every sharp edge of each body below the faces of the other [s].
 double deepest_edge(const Model& model, const State& state) {
   using namespace reference;
-  const TouchSurfaces all = touch_surfaces(model);
+  const ContactSurfaces all = contact_surfaces(model);
   const auto x = [&](std::uint32_t i) { return rounded<double>(state.position[i]); };
   double deepest = 1.0;
   for (std::size_t a = 0; a < 2; ++a) {
-    const TouchBody &own = all.bodies[a], &other = all.bodies[1 - a];
+    const ContactBody &own = all.bodies[a], &other = all.bodies[1 - a];
     for (std::uint32_t p = own.first_point; p < own.first_point + own.point_count; ++p) {
       if (all.points[p].single()) continue;
       for (int j = 0; j <= 16; ++j) {
         const Vector<double> P =
             (1 - j / 16.0) * x(all.points[p].carrier[0]) + j / 16.0 * x(all.points[p].carrier[1]);
-        std::vector<Sight<double>> sights;
+        std::vector<ClosestPoint<double>> sights;
         for (std::uint32_t t = other.first_triangle; t < other.first_triangle + other.triangle_count; ++t) {
           const auto& corner = all.triangles[t].corner;
           const Vector<double> A = x(corner[0]), B = x(corner[1]), C = x(corner[2]);
           sights.push_back(sight_of<double>(t, 0, face_of<double>(A, B, C), P));
         }
-        const auto* seen = nearest_of<double>(sights, 2e-6 * S, [](const Sight<double>&) { return true; });
+        const auto* seen =
+            nearest_of<double>(sights, 2e-6 * S, [](const ClosestPoint<double>&) { return true; });
         deepest = std::min(deepest, seen->z < 0 ? -seen->L : seen->L);
       }
     }
@@ -338,11 +339,11 @@ TEST(BodyContact, SqueezedCubeTakesItsShapeAgain) {
     s.v.block(1, count, 1, count).setConstant(-v);
     s = reference::explicit_step(Integrator::symplectic_euler,
                                  reference::StepDynamics<double>(dynamics, s.x, s.v, &contact), s, 0.001);
-    for (const auto& touch : contact.touches()) deepest = std::min(deepest, touch.d / S);
+    for (const auto& touch : contact.contacts()) deepest = std::min(deepest, touch.d / S);
   }
   EXPECT_GE(deepest, -0.1);
   EXPECT_LE(deepest, 0.05) << "it was not squeezed";
-  EXPECT_TRUE(contact.touches().empty());
+  EXPECT_TRUE(contact.contacts().empty());
   double off = 0.0;
   for (Eigen::Index i = 2 * count; i < s.x.cols(); ++i)
     for (Eigen::Index j = 2 * count; j < i; ++j)

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "model/touch_surface.h"
+#include "model/contact_surface.h"
 #include "support/model_building.h"
 #include "support/reference_runs.h"
 
@@ -50,8 +50,8 @@ TEST(NetContact, CatchesACube) {
 
 TEST(NetContact, IsThatOfItsMeshes) {
   const Model model = test::build(over_a_net(false));
-  EXPECT_TRUE(bodies_touch(model));
-  const TouchSurfaces surfaces = touch_surfaces(model);
+  EXPECT_TRUE(has_body_contact(model));
+  const ContactSurfaces surfaces = contact_surfaces(model);
   ASSERT_EQ(surfaces.bodies.size(), 2u);
   EXPECT_FALSE(surfaces.bodies[1].closed);
   // Back, roof and sides.
@@ -62,7 +62,7 @@ TEST(NetContact, IsThatOfItsMeshes) {
 TEST(NetContact, IsNoneOfANetAlone) {
   ModelSettings settings = over_a_net(false);
   settings.cubes.clear();
-  EXPECT_FALSE(bodies_touch(test::build(settings)));
+  EXPECT_FALSE(has_body_contact(test::build(settings)));
 }
 
 }  // namespace

@@ -155,13 +155,13 @@ TEST_F(Layout, BallBlocksMatchTheDriver) {
   const gl::Program exchange = program("compute/ball_exchange.comp");
   EXPECT_EQ(Reflection(exchange).storage_block_binding("StateA"), BINDING_STATE_A);
   EXPECT_EQ(Reflection(exchange).storage_block_binding("StateB"), BINDING_STATE_B);
-  EXPECT_EQ(Reflection(exchange).storage_block_binding("TouchesBlock"), BINDING_BALL_TOUCHES);
+  EXPECT_EQ(Reflection(exchange).storage_block_binding("ContactsBlock"), BINDING_BALL_CONTACTS);
   EXPECT_EQ(Reflection(exchange).storage_block_binding("ItemsBlock"), BINDING_BALL_ITEMS);
   EXPECT_EQ(Reflection(exchange).storage_block_binding("WorkBlock"), BINDING_BALL_WORK);
-  EXPECT_EQ(Reflection(exchange).buffer_variable_offset("touches[0].items"),
-            bytes(offsetof(layout::BallTouches, items)));
-  EXPECT_EQ(Reflection(exchange).buffer_variable_top_level_stride("touches[0].list"),
-            bytes(sizeof(layout::BallTouches)));
+  EXPECT_EQ(Reflection(exchange).buffer_variable_offset("contacts[0].items"),
+            bytes(offsetof(layout::BallContacts, items)));
+  EXPECT_EQ(Reflection(exchange).buffer_variable_top_level_stride("contacts[0].list"),
+            bytes(sizeof(layout::BallContacts)));
   EXPECT_EQ(Reflection(exchange).buffer_variable_offset("items[0].overlaps[0]"),
             bytes(offsetof(layout::BallItem, overlaps)));
   EXPECT_EQ(Reflection(exchange).buffer_variable_offset("items[0].turning"),

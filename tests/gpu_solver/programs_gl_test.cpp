@@ -110,7 +110,7 @@ bool has_nothing_to_do(std::string_view kernel, const test::KernelVariant& varia
                                        "compute/ball_near.comp", "compute/ball_particles.comp",
                                        "compute/ball_tally.comp"};
   if (variant.scene.ends_with("with balls")) return std::ranges::count(of_particles, kernel) > 0;
-  return !variant.scene.ends_with("struck by a cube") && kernel.ends_with("touch_moved.comp");
+  return !variant.scene.ends_with("struck by a cube") && kernel.ends_with("contact_moved.comp");
 }
 
 // The test above means nothing for a kernel whose work does not show in the state.

@@ -18,7 +18,7 @@ from oracle_cells import MATERIAL, Actuation, build_voxels, cells_of_cube
 from oracle_contact import CoulombStep, dot
 from oracle_implicit import backward_euler
 from oracle_scene import BALL, TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene, surface_facts
-from oracle_touch import Surface, Touch
+from oracle_body_contact import Surface, Touch
 
 COLUMNS = ["kind", "index", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"]
 SPEED_LIMIT = 1000.0  # m/s; faster is divergence

@@ -6,7 +6,7 @@ Terrain is left out: a ball that comes near it is refused. Every ball is compare
 import numpy as np
 
 from oracle_scene import SceneError
-from oracle_touch import dot, nearest
+from oracle_body_contact import dot, nearest
 
 
 class Pairs:

@@ -7,24 +7,24 @@
 namespace aspic {
 namespace {
 
-struct Sight {
+struct ClosestPoint {
   std::string scene;
   std::uint64_t step;
   std::vector<std::string> overrides = {};
 };
 
-void PrintTo(const Sight& sight, std::ostream* out) {
+void PrintTo(const ClosestPoint& sight, std::ostream* out) {
   *out << sight.scene << " at step " << sight.step;
   for (const std::string& set : sight.overrides) *out << ", " << set;
 }
 
-class Parts : public test::Studio, public ::testing::WithParamInterface<Sight> {
+class Parts : public test::Studio, public ::testing::WithParamInterface<ClosestPoint> {
  protected:
   static constexpr int width = 322, height = 181;
 
   void SetUp() override {
     Studio::SetUp();
-    const Sight& sight = GetParam();
+    const ClosestPoint& sight = GetParam();
     auto scene = load_scene(sight.scene, sight.overrides);
     ASSERT_TRUE(scene.ok()) << scene.error().message();
     options.view = scene->view;
@@ -100,16 +100,15 @@ TEST_P(Parts, AreGivenUpForAnotherPicture) {
 
 INSTANTIATE_TEST_SUITE_P(
     Pictures, Parts,
-    ::testing::Values(Sight{"cube-plane", 1300}, Sight{"cube-bowl", 1200}, Sight{"goal-net", 250},
-                      Sight{"flag", 200}, Sight{"ball-pit", 500},
-                      Sight{"cube-plane", 1300, {"view.colour=strain", "view.scale.range=automatic"}},
-                      Sight{"cube-sphere",
-                            900,
-                            {"view.cut.inside=springs", "view.ground=0.0", "view.arrows=[\"contacts\"]"}},
-                      Sight{"large-cube",
-                            0,
-                            {"cube[0].particles-per-edge=20", "view.draw=[\"particles\", \"structural\"]"}}),
-    [](const auto& about) { return "Sight" + std::to_string(about.index); });
+    ::testing::Values(
+        ClosestPoint{"cube-plane", 1300}, ClosestPoint{"cube-bowl", 1200}, ClosestPoint{"goal-net", 250},
+        ClosestPoint{"flag", 200}, ClosestPoint{"ball-pit", 500},
+        ClosestPoint{"cube-plane", 1300, {"view.colour=strain", "view.scale.range=automatic"}},
+        ClosestPoint{
+            "cube-sphere", 900, {"view.cut.inside=springs", "view.ground=0.0", "view.arrows=[\"contacts\"]"}},
+        ClosestPoint{
+            "large-cube", 0, {"cube[0].particles-per-edge=20", "view.draw=[\"particles\", \"structural\"]"}}),
+    [](const auto& about) { return "ClosestPoint" + std::to_string(about.index); });
 
 }  // namespace
 }  // namespace aspic

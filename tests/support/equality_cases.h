@@ -16,7 +16,7 @@ enum class Bodies { cube, listed_cube, cloth, cube_and_balls, all, box, voxels, 
 /// What the terrain does to them.
 enum class Ground {
   bouncing,  ///< default restitution and friction
-  holding,   ///< hardly bounces, rubs, is movable: bodies come to rest on it
+  holding,   ///< hardly bounces, has_friction, is movable: bodies come to rest on it
   moving     ///< to and fro
 };
 

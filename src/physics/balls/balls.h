@@ -87,7 +87,7 @@ class Balls {
     const Phase<T> flown = fly(free_flight_row(model_->simulation.integrator).integrator,
                                Flight{*this, start}, Phase<T>{start.x, start.v}, model_->simulation.timestep);
     BallPhase<T> end = land(step, start, flown);
-    find_touches(step, end, particles);
+    find_contacts(step, end, particles);
     exchange_among_balls(start, end);
     exchange_with_particles(start, end, particle_start, particles);
     separate(end, particles);
@@ -169,7 +169,7 @@ class Balls {
     return end;
   }
 
-  void find_touches(std::uint64_t step, const BallPhase<T>& balls, const ParticleView<T>& particles);
+  void find_contacts(std::uint64_t step, const BallPhase<T>& balls, const ParticleView<T>& particles);
   /// Adds the balls closer than ε to a body of this radius at x, ball `own` or a particle (no_ball), in
   /// ascending index; gap_to(b) is the gap to ball b. They stay in near_.
   template <class GapTo>
@@ -199,7 +199,7 @@ class Balls {
   }
 
   /// False only for bodies that are further apart than ε, far beyond rounding.
-  bool may_touch(const Vector<T>& e, T reach) const {
+  bool may_contact(const Vector<T>& e, T reach) const {
     const T limit = T(1.01) * (reach + rules_.contact.epsilon);
     return !(dot3<T>(e, e) > limit * limit);
   }
@@ -219,15 +219,15 @@ class Balls {
   BallsOnFaces<T> faces_;
   // Of the step under way.
   Contacts ball_ball_, ball_particle_, particle_ball_;
-  std::vector<std::uint32_t> present_;   // balls that have been launched
-  std::vector<std::uint32_t> near_;      // partners of one body
-  std::vector<std::uint32_t> touching_;  // particles near balls: the bodies of particle_ball_
+  std::vector<std::uint32_t> present_;     // balls that have been launched
+  std::vector<std::uint32_t> near_;        // partners of one body
+  std::vector<std::uint32_t> in_contact_;  // particles near balls: the bodies of particle_ball_
 };
 
 /// All pairs closer than ε, from candidates that a grid offers: the test itself is that of all pairs.
 template <class T, template <class> class Search>
-void Balls<T, Search>::find_touches(std::uint64_t step, const BallPhase<T>& balls,
-                                    const ParticleView<T>& particles) {
+void Balls<T, Search>::find_contacts(std::uint64_t step, const BallPhase<T>& balls,
+                                     const ParticleView<T>& particles) {
   present_.clear();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (model_->balls[b].launched(step) && balls.x.col(b).allFinite()) present_.push_back(b);
@@ -244,7 +244,7 @@ void Balls<T, Search>::find_touches(std::uint64_t step, const BallPhase<T>& ball
     ball_ball_.end_body();
   }
   particle_ball_.clear();
-  touching_.clear();
+  in_contact_.clear();
   const auto count = static_cast<std::uint32_t>(search.empty() ? 0 : particle_weight_.size());
   for (std::uint32_t first = 0; first < count; first += neighbourhood) {
     const std::uint32_t end = std::min(count, first + neighbourhood);
@@ -256,7 +256,7 @@ void Balls<T, Search>::find_touches(std::uint64_t step, const BallPhase<T>& ball
       add_near(search, balls, x, T(0), no_ball, gap_to, particle_ball_);
       if (near_.empty()) continue;
       particle_ball_.end_body();
-      touching_.push_back(p);
+      in_contact_.push_back(p);
     }
   }
   list_particles_of_balls();
@@ -269,7 +269,7 @@ void Balls<T, Search>::add_near(const Search<T>& search, const BallPhase<T>& bal
                                 T radius, std::uint32_t own, const GapTo& gap_to, Contacts& contacts) {
   near_.clear();
   search.candidates(x, own != no_ball, [&](std::uint32_t b) {
-    if (b == own || !may_touch(x - balls.x.col(b), radius + body(b).radius)) return;
+    if (b == own || !may_contact(x - balls.x.col(b), radius + body(b).radius)) return;
     if (gap_to(b).d < rules_.contact.epsilon) near_.push_back(b);
   });
   if (!std::is_sorted(near_.begin(), near_.end())) std::sort(near_.begin(), near_.end());
@@ -287,7 +287,7 @@ void Balls<T, Search>::list_particles_of_balls() {
   std::vector<std::size_t> next(start.begin(), start.end() - 1);
   ball_particle_.other.resize(particle_ball_.other.size());
   ball_particle_.overlap.resize(particle_ball_.other.size());
-  for (std::uint32_t n = 0; n < touching_.size(); ++n) {
+  for (std::uint32_t n = 0; n < in_contact_.size(); ++n) {
     for (std::size_t k = particle_ball_.start[n]; k < particle_ball_.start[n + 1]; ++k) {
       const std::size_t place = next[particle_ball_.other[k]]++;
       ball_particle_.other[place] = n;
@@ -333,18 +333,18 @@ void Balls<T, Search>::exchange_with_particles(const BallPhase<T>& start, BallPh
                                                const ParticleView<T>& particles) {
   if (particle_ball_.other.empty()) return;
   const Counts c_ball = tally(ball_particle_, [&](std::uint32_t b, std::uint32_t n) {
-    const Vector<T> dv = balls.v.col(b) - particles.velocity(touching_[n]);
-    return dot3<T>(dv, from_ball(balls, particles, b, touching_[n]).n) < T(0);
+    const Vector<T> dv = balls.v.col(b) - particles.velocity(in_contact_[n]);
+    return dot3<T>(dv, from_ball(balls, particles, b, in_contact_[n]).n) < T(0);
   });
   const Counts c_particle = tally(particle_ball_, [&](std::uint32_t n, std::uint32_t b) {
-    const Vector<T> dv = particles.velocity(touching_[n]) - balls.v.col(b);
-    return dot3<T>(dv, from_particle(balls, particles, touching_[n], b).n) < T(0);
+    const Vector<T> dv = particles.velocity(in_contact_[n]) - balls.v.col(b);
+    return dot3<T>(dv, from_particle(balls, particles, in_contact_[n], b).n) < T(0);
   });
   const auto received = [&](const Vector<T>& normal, std::uint32_t b, std::uint32_t n, const Vector<T>& dv,
                             const Vector<T>& dv0) {
     const Vector<T> rolling = body(b).radius * balls.omega.col(b);
     const T weight =
-        number(c_ball[b]) * body(b).inverse_mass + number(c_particle[n]) * particle_weight_[touching_[n]];
+        number(c_ball[b]) * body(b).inverse_mass + number(c_particle[n]) * particle_weight_[in_contact_[n]];
     const T slip_weight = weight + number(c_ball[b]) * body(b).slip;
     return impact<T>(rules_, normal, dv, dv0, rolling, weight, slip_weight);
   };
@@ -353,15 +353,15 @@ void Balls<T, Search>::exchange_with_particles(const BallPhase<T>& start, BallPh
     if (c_ball[b] == 0) continue;
     ImpulseSum sum;
     for_each(ball_particle_, ball_particle_.acting, b, [&](std::uint32_t n) {
-      const std::uint32_t p = touching_[n];
+      const std::uint32_t p = in_contact_[n];
       sum.add(received(from_ball(balls, particles, b, p).n, b, n, balls.v.col(b) - particles.velocity(p),
                        start.v.col(b) - particle_start.velocity(p)));
     });
     on_ball.push_back({b, sum.total()});
   }
   std::vector<std::pair<std::uint32_t, Vector<T>>> on_particle;
-  for (std::uint32_t n = 0; n < touching_.size(); ++n) {
-    const std::uint32_t p = touching_[n];
+  for (std::uint32_t n = 0; n < in_contact_.size(); ++n) {
+    const std::uint32_t p = in_contact_[n];
     if (c_particle[n] == 0 || particle_weight_[p] == T(0)) continue;
     PartnerSum<Vector<T>> sum(Vector<T>::Zero());
     for_each(particle_ball_, particle_ball_.acting, n, [&](std::uint32_t b) {
@@ -379,13 +379,13 @@ void Balls<T, Search>::exchange_with_particles(const BallPhase<T>& start, BallPh
 template <class T, template <class> class Search>
 void Balls<T, Search>::separate(BallPhase<T>& balls, const ParticleView<T>& particles) {
   if (ball_ball_.other.empty() && particle_ball_.other.empty()) return;
-  Counts c_ball(bodies_.size(), 0), c_particle(touching_.size(), 0);
+  Counts c_ball(bodies_.size(), 0), c_particle(in_contact_.size(), 0);
   tally_overlaps(ball_ball_, c_ball);
   tally_overlaps(ball_particle_, c_ball);
   tally_overlaps(particle_ball_, c_particle);
   const auto ball_weight = [&](std::uint32_t b) { return number(c_ball[b]) * body(b).inverse_mass; };
   const auto particle_weight = [&](std::uint32_t n) {
-    return number(c_particle[n]) * particle_weight_[touching_[n]];
+    return number(c_particle[n]) * particle_weight_[in_contact_[n]];
   };
   const auto push = [](const Gap<T>& gap, T weight) { return Vector<T>((-gap.d / weight) * gap.n); };
   std::vector<std::pair<std::uint32_t, Vector<T>>> on_ball, on_particle;
@@ -396,12 +396,12 @@ void Balls<T, Search>::separate(BallPhase<T>& balls, const ParticleView<T>& part
       sum.add(push(between_balls(balls, b, other), ball_weight(b) + ball_weight(other)));
     });
     for_each(ball_particle_, ball_particle_.overlap, b, [&](std::uint32_t n) {
-      sum.add(push(from_ball(balls, particles, b, touching_[n]), ball_weight(b) + particle_weight(n)));
+      sum.add(push(from_ball(balls, particles, b, in_contact_[n]), ball_weight(b) + particle_weight(n)));
     });
     on_ball.push_back({b, sum.total()});
   }
-  for (std::uint32_t n = 0; n < touching_.size(); ++n) {
-    const std::uint32_t p = touching_[n];
+  for (std::uint32_t n = 0; n < in_contact_.size(); ++n) {
+    const std::uint32_t p = in_contact_[n];
     if (c_particle[n] == 0 || particle_weight_[p] == T(0)) continue;
     PartnerSum<Vector<T>> sum(Vector<T>::Zero());
     for_each(particle_ball_, particle_ball_.overlap, n, [&](std::uint32_t b) {

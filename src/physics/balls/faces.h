@@ -161,8 +161,8 @@ class BallsOnFaces {
       for (std::uint32_t t = first; t < std::min(first + face_block, body.triangle_count); ++t)
         look(body.first_triangle + t, P, limit, far, particles);
     }
-    const Sight<T>* const nearest =
-        nearest_of<T>(sights_, T(2e-6) * limit, [](const Sight<T>&) { return true; });
+    const ClosestPoint<T>* const nearest =
+        nearest_of<T>(sights_, T(2e-6) * limit, [](const ClosestPoint<T>&) { return true; });
     if (nearest) add(b, *nearest, body.closed, limit);
   }
   std::size_t first_box(const FacesOfBody& body) const {
@@ -178,11 +178,11 @@ class BallsOnFaces {
     const Face<T> face = face_of<T>(particles.position(corner[0]), particles.position(corner[1]),
                                     particles.position(corner[2]));
     if (!face.real) return;
-    const Sight<T> seen = sight_of<T>(t, 0, face, P);
+    const ClosestPoint<T> seen = sight_of<T>(t, 0, face, P);
     if (seen.L < limit) sights_.push_back(seen);
   }
 
-  void add(std::uint32_t ball, const Sight<T>& seen, bool closed, T limit) {
+  void add(std::uint32_t ball, const ClosestPoint<T>& seen, bool closed, T limit) {
     const auto& [b, c, within] = seen.at;
     const T a = (T(1) - b) - c;
     // A corner is a particle, which the ball meets as such.
@@ -262,7 +262,7 @@ class BallsOnFaces {
 
   BallFaces faces_;
   std::vector<Box<T>> boxes_;  // of blocks
-  std::vector<Sight<T>> sights_;
+  std::vector<ClosestPoint<T>> sights_;
   std::vector<FacePair<T>> pairs_;
   std::vector<std::uint32_t> named_;                        // particles, ascending
   std::vector<std::uint32_t> ball_pairs_, particle_pairs_;  // that act

@@ -54,8 +54,8 @@ T friction_impulse(const Vector<T>& s, T normal_impulse, T friction, T complianc
 /// Friction where the surfaces touch, of a terrain whose normal impulse raised the normal speed by `gain`: it
 /// changes the tangential velocity v_t and turns the ball.
 template <class T>
-void rub_ball(const BallBody<T>& ball, T friction, T gain, const Vector<T>& n, Vector<T>& v_t,
-              Vector<T>& omega) {
+void apply_ball_friction(const BallBody<T>& ball, T friction, T gain, const Vector<T>& n, Vector<T>& v_t,
+                         Vector<T>& omega) {
   const Vector<T> s = v_t - ball.radius * cross3<T>(omega, n);
   Vector<T> t;
   const T J_t = friction_impulse<T>(s, ball.mass * gain, friction, ball.inverse_mass + ball.slip, t);
@@ -74,7 +74,7 @@ void respond_ball_course(const Ground<T>& ground, const BallRules<T>& rules, con
   if (!(g.d < rules.contact.epsilon && u < T(0))) return;
   const T u_after = bounce_speed<T>(ground, ball.mass, u);
   Vector<T> v_t = v_r - u * g.n;
-  if (rules.spin) rub_ball<T>(ball, ground.friction, u_after - u, g.n, v_t, omega);
+  if (rules.spin) apply_ball_friction<T>(ball, ground.friction, u_after - u, g.n, v_t, omega);
   v = ground.end.absolute(v_t + u_after * g.n);
 }
 
@@ -116,9 +116,9 @@ void respond_ball_coulomb(const Ground<T>& ground, const BallRules<T>& rules, co
   if (gain > T(0)) {
     Vector<T> v_t = v_r - u * g.n;
     if (rules.spin) {
-      rub_ball<T>(ball, ground.friction, gain, g.n, v_t, omega);
+      apply_ball_friction<T>(ball, ground.friction, gain, g.n, v_t, omega);
     } else {
-      v_t = rubbed<T>(v_t, ground.friction * gain);
+      v_t = after_friction<T>(v_t, ground.friction * gain);
     }
     v = ground.end.absolute(v_t + u_after * g.n);
   }

@@ -93,7 +93,7 @@ struct Box {
 
 /// A triangle as a point P sees it.
 template <class T>
-struct Sight {
+struct ClosestPoint {
   std::uint32_t triangle, side;
   NearestPlace<T> at;
   Vector<T> e;  ///< from the nearest place to P [m]
@@ -104,8 +104,9 @@ struct Sight {
 
 /// Of a face that has an area.
 template <class T>
-Sight<T> sight_of(std::uint32_t triangle, std::uint32_t side, const Face<T>& face, const Vector<T>& P) {
-  Sight<T> seen;
+ClosestPoint<T> sight_of(std::uint32_t triangle, std::uint32_t side, const Face<T>& face,
+                         const Vector<T>& P) {
+  ClosestPoint<T> seen;
   seen.triangle = triangle;
   seen.side = side;
   seen.at = nearest_place<T>(P, face.A, face.B, face.C);
@@ -119,7 +120,7 @@ Sight<T> sight_of(std::uint32_t triangle, std::uint32_t side, const Face<T>& fac
 
 /// How straight in front of a triangle a point is: |z|/L, 1 in front of the face.
 template <class T>
-T straightness(const Sight<T>& seen) {
+T straightness(const ClosestPoint<T>& seen) {
   if (seen.at.face) return T(1);
   return seen.L > T(0) ? std::abs(seen.z) / seen.L : T(0);
 }
@@ -129,15 +130,15 @@ T straightness(const Sight<T>& seen) {
 /// triangles that share the nearest edge have the same distance but for rounding; the one that faces the
 /// point knows its inside from its outside.
 template <class T, class Sights, class Among>
-const Sight<T>* nearest_of(const Sights& sights, T tie, const Among& among) {
-  const Sight<T>* least = nullptr;
-  for (const Sight<T>& seen : sights)
+const ClosestPoint<T>* nearest_of(const Sights& sights, T tie, const Among& among) {
+  const ClosestPoint<T>* least = nullptr;
+  for (const ClosestPoint<T>& seen : sights)
     if (among(seen) && (!least || seen.L < least->L)) least = &seen;
   if (!least) return nullptr;
   const T far = least->L + tie;
-  const Sight<T>* best = nullptr;
+  const ClosestPoint<T>* best = nullptr;
   T straight = T(-1);
-  for (const Sight<T>& seen : sights) {
+  for (const ClosestPoint<T>& seen : sights) {
     if (!(among(seen) && seen.L <= far)) continue;
     const T here = straightness<T>(seen);
     if (here > straight || (here == straight && seen.L < best->L)) {
@@ -150,7 +151,7 @@ const Sight<T>* nearest_of(const Sights& sights, T tie, const Among& among) {
 
 /// Signed distance d [m] and unit normal n towards the side on which a point belongs.
 template <class T>
-struct TouchGap {
+struct ContactGap {
   T d;
   Vector<T> n;
 };
@@ -158,28 +159,28 @@ struct TouchGap {
 /// Of a point that touches a face of a closed surface: outside within `reach` ρ, or inside within `depth` D
 /// and in front of the face's back.
 template <class T>
-std::optional<TouchGap<T>> closed_gap(const Sight<T>& seen, T reach, T depth) {
+std::optional<ContactGap<T>> closed_gap(const ClosestPoint<T>& seen, T reach, T depth) {
   const bool inside = seen.z < T(0);
   if (inside ? !(seen.L <= depth && -seen.z >= T(0.7) * seen.L) : !(seen.L < reach)) return std::nullopt;
   const T d = inside ? -seen.L : seen.L;
-  if (seen.at.face) return TouchGap<T>{seen.z, seen.N};
-  if (!(seen.L > T(0))) return TouchGap<T>{d, seen.N};
-  return TouchGap<T>{d, (T(1) / d) * seen.e};
+  if (seen.at.face) return ContactGap<T>{seen.z, seen.N};
+  if (!(seen.L > T(0))) return ContactGap<T>{d, seen.N};
+  return ContactGap<T>{d, (T(1) / d) * seen.e};
 }
 
 /// Of a point that touches a face of an open surface, within `reach` on either side.
 template <class T>
-std::optional<TouchGap<T>> open_gap(const Sight<T>& seen, T reach) {
+std::optional<ContactGap<T>> open_gap(const ClosestPoint<T>& seen, T reach) {
   if (!(seen.L < reach)) return std::nullopt;
-  if (seen.at.face && seen.z < T(0)) return TouchGap<T>{-seen.z, -seen.N};
-  if (seen.at.face) return TouchGap<T>{seen.z, seen.N};
-  if (!(seen.L > T(0))) return TouchGap<T>{seen.L, seen.N};
-  return TouchGap<T>{seen.L, (T(1) / seen.L) * seen.e};
+  if (seen.at.face && seen.z < T(0)) return ContactGap<T>{-seen.z, -seen.N};
+  if (seen.at.face) return ContactGap<T>{seen.z, seen.N};
+  if (!(seen.L > T(0))) return ContactGap<T>{seen.L, seen.N};
+  return ContactGap<T>{seen.L, (T(1) / seen.L) * seen.e};
 }
 
 /// Whether a point in front of a second side touches that, too.
 template <class T>
-bool straight_in_front(const Sight<T>& seen, T reach) {
+bool straight_in_front(const ClosestPoint<T>& seen, T reach) {
   return seen.z >= T(0) && seen.L < reach && seen.z >= T(0.9) * seen.L;
 }
 

@@ -3,7 +3,7 @@
 // are found where a step begins, and again where its first solve ends; their pushes and friction are
 // functions of the velocities v' at its end, and linear but for where a push begins and a cone ends. Every
 // expression has one order of operations, which the kernels follow
-// (shaders/compute/implicit_touch_react.comp).
+// (shaders/compute/implicit_contact_react.comp).
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,7 +15,7 @@ namespace aspic::physics {
 
 /// What a contact does at a trial v', and the part of the matrix, −h·∂F/∂v', that it is.
 template <class T>
-struct TouchAnswer {
+struct ContactResponse {
   T cone = T(0);                        ///< most friction [N]: μ·f where it was found
   Vector<T> force = Vector<T>::Zero();  ///< on the point [N]
   T along = T(0), across = T(0);        ///< along n and across it [kg]
@@ -28,13 +28,13 @@ struct TouchAnswer {
 /// k·h·u) and friction p, which begins with that of the explicit methods and gives way like a spring of the
 /// push's stiffness.
 template <class T>
-void answer(const Touch<T>& touch, const Vector<T>& r, T h, TouchAnswer<T>& out) {
-  const T stiffness = h * touch.c;
-  const T u = dot3<T>(touch.n, r), push = push_of<T>(touch, u);
-  const Vector<T> slip = r - u * touch.n;
-  Vector<T> p = touch.rub - touch.c * slip;
+void answer(const ContactPoint<T>& contact, const Vector<T>& r, T h, ContactResponse<T>& out) {
+  const T stiffness = h * contact.c;
+  const T u = dot3<T>(contact.n, r), normal_force = normal_force_of<T>(contact, u);
+  const Vector<T> slip = r - u * contact.n;
+  Vector<T> p = contact.friction - contact.c * slip;
   const T size = norm3<T>(p);
-  out.along = push > T(0) ? stiffness : T(0);
+  out.along = normal_force > T(0) ? stiffness : T(0);
   out.across = stiffness;
   out.t.setZero();
   if (!(out.cone > T(0))) {
@@ -46,26 +46,26 @@ void answer(const Touch<T>& touch, const Vector<T>& r, T h, TouchAnswer<T>& out)
     p = share * p;
     out.across = share * stiffness;
   }
-  out.force = p + push * touch.n;
+  out.force = p + normal_force * contact.n;
 }
 
 /// The matrix of a contact times the relative velocity c of its point.
 template <class T>
-Vector<T> product_of(const Touch<T>& touch, const TouchAnswer<T>& answer, const Vector<T>& c) {
-  const T along = dot3<T>(touch.n, c), turned = dot3<T>(answer.t, c);
-  const Vector<T> rest = (c - along * touch.n) - turned * answer.t;
-  return (answer.along * along) * touch.n + answer.across * rest;
+Vector<T> product_of(const ContactPoint<T>& contact, const ContactResponse<T>& answer, const Vector<T>& c) {
+  const T along = dot3<T>(contact.n, c), turned = dot3<T>(answer.t, c);
+  const Vector<T> rest = (c - along * contact.n) - turned * answer.t;
+  return (answer.along * along) * contact.n + answer.across * rest;
 }
 
 /// `Search`: finds the contacts, as reference::BodyContact does. What follows `inverse_mass` is passed on to
 /// it.
 template <class T, class Search>
-class TouchAhead {
+class ImplicitContact {
  public:
   using Particles = typename ContactForces<T>::Particles;
 
-  /// Of a model whose bodies_touch().
-  explicit TouchAhead(const Model& model)
+  /// Of a model whose has_body_contact().
+  explicit ImplicitContact(const Model& model)
       : contact_(model, model.simulation.timestep), h_(static_cast<T>(model.simulation.timestep)) {}
 
   Search& search() { return contact_; }
@@ -97,18 +97,18 @@ class TouchAhead {
     gather(velocity);
     bool any = false;
     for (std::size_t n = 0; n < answers_.size(); ++n) {
-      const Touch<T>& touch = contact_.touches()[n];
-      const Vector<T> r = relative(touch);
-      answer<T>(touch, r, h_, answers_[n]);
+      const ContactPoint<T>& contact = contact_.contacts()[n];
+      const Vector<T> r = relative(contact);
+      answer<T>(contact, r, h_, answers_[n]);
       any = any || answers_[n].acts();
     }
     force_.assign(particles().size(), Vector<T>::Zero());
     block_.assign(particles().size(), DiagonalBlock<T>(T(0)));
-    const auto add = [&](std::uint32_t place, T weight, T sign, const Touch<T>& touch,
-                         const TouchAnswer<T>& at) {
+    const auto add = [&](std::uint32_t place, T weight, T sign, const ContactPoint<T>& contact,
+                         const ContactResponse<T>& at) {
       force_[place] = force_[place] + (sign * weight) * at.force;
       const T square = weight * weight;
-      block_[place].add({square * at.along, square * at.across, touch.n});
+      block_[place].add({square * at.along, square * at.across, contact.n});
       block_[place].add({-(square * at.across), T(0), at.t});
     };
     for_each_acting(add);
@@ -123,12 +123,13 @@ class TouchAhead {
     gather(p);
     product_.assign(particles().size(), Vector<T>::Zero());
     for (std::size_t n = 0; n < answers_.size(); ++n) {
-      const Touch<T>& touch = contact_.touches()[n];
-      if (answers_[n].acts()) answers_[n].product = product_of<T>(touch, answers_[n], relative(touch));
+      const ContactPoint<T>& contact = contact_.contacts()[n];
+      if (answers_[n].acts()) answers_[n].product = product_of<T>(contact, answers_[n], relative(contact));
     }
-    for_each_acting([&](std::uint32_t place, T weight, T sign, const Touch<T>&, const TouchAnswer<T>& at) {
-      product_[place] = product_[place] + (sign * weight) * at.product;
-    });
+    for_each_acting(
+        [&](std::uint32_t place, T weight, T sign, const ContactPoint<T>&, const ContactResponse<T>& at) {
+          product_[place] = product_[place] + (sign * weight) * at.product;
+        });
   }
   const Vector<T>& product(std::size_t place) const { return product_[place]; }
 
@@ -139,13 +140,13 @@ class TouchAhead {
   bool find(const Particles& start, const Particles& at, const Force& force, const InverseMass& inverse_mass,
             const Run&... run) {
     const bool near = contact_.find(at, run...);
-    answers_.assign(contact_.touches().size(), {});
+    answers_.assign(contact_.contacts().size(), {});
     if (!near) return false;
     std::vector<Vector<T>> f;
     for (const std::uint32_t p : contact_.particles()) f.push_back(force(p));
-    contact_.push(start, inverse_mass, f, run...);
+    contact_.add_normal_forces(start, inverse_mass, f, run...);
     for (std::size_t n = 0; n < answers_.size(); ++n)
-      answers_[n].cone = contact_.touches()[n].mu * contact_.touches()[n].push;
+      answers_[n].cone = contact_.contacts()[n].mu * contact_.contacts()[n].normal_force;
     return true;
   }
 
@@ -154,30 +155,30 @@ class TouchAhead {
     value_.clear();
     for (const std::uint32_t p : particles()) value_.push_back(value(p));
   }
-  Vector<T> relative(const Touch<T>& touch) const {
+  Vector<T> relative(const ContactPoint<T>& contact) const {
     const auto value = [&](std::uint32_t place) { return value_[place]; };
-    return over_carriers<T>(touch, value) - over_corners<T>(touch, value);
+    return over_carriers<T>(contact, value) - over_corners<T>(contact, value);
   }
   /// As for_sums(), of contacts that act.
   template <class Add>
   void for_each_acting(const Add& add) const {
     const auto each = [&](std::size_t first, auto last, T sign) {
       for (std::size_t n = 0; n < answers_.size(); ++n) {
-        const Touch<T>& touch = contact_.touches()[n];
+        const ContactPoint<T>& contact = contact_.contacts()[n];
         if (!answers_[n].acts()) continue;
-        for (std::size_t k = first; k < last(touch); ++k)
-          add(touch.place[k], touch.weight[k], sign, touch, answers_[n]);
+        for (std::size_t k = first; k < last(contact); ++k)
+          add(contact.place[k], contact.weight[k], sign, contact, answers_[n]);
       }
     };
     each(
-        0, [](const Touch<T>& touch) { return std::size_t{touch.carriers}; }, T(1));
+        0, [](const ContactPoint<T>& contact) { return std::size_t{contact.carriers}; }, T(1));
     each(
-        2, [](const Touch<T>&) { return std::size_t{5}; }, T(-1));
+        2, [](const ContactPoint<T>&) { return std::size_t{5}; }, T(-1));
   }
 
   Search contact_;
   T h_;
-  std::vector<TouchAnswer<T>> answers_;  // of the contacts
+  std::vector<ContactResponse<T>> answers_;  // of the contacts
   std::vector<Vector<T>> value_, force_, product_;
   std::vector<DiagonalBlock<T>> block_;
 };

@@ -25,9 +25,9 @@ class InitialOverlaps {
 
   InitialOverlaps() = default;
   /// Of the contacts in the initial state, found in double precision.
-  InitialOverlaps(const TouchSurfaces& surfaces, std::span<const Touch<double>> contacts) {
+  InitialOverlaps(const ContactSurfaces& surfaces, std::span<const ContactPoint<double>> contacts) {
     std::vector<InitialOverlap<double>> exact;
-    for (const Touch<double>& contact : contacts) {
+    for (const ContactPoint<double>& contact : contacts) {
       const std::uint32_t body = surfaces.body_of_triangle(contact.triangle);
       if (exact.empty() || exact.back().point != contact.point || exact.back().body != body)
         exact.push_back({contact.point, body, contact.d});
@@ -40,10 +40,10 @@ class InitialOverlaps {
   const std::vector<Overlap>& all() const { return all_; }
 
   /// A step begins this long after the initial state [s].
-  void begin_step(const TouchSurfaces& surfaces, const TouchTable<T>& table, T time) {
+  void begin_step(const ContactSurfaces& surfaces, const PairTable<T>& table, T time) {
     time_ = time;
     active_ = std::ranges::any_of(all_, [&](const Overlap& overlap) {
-      const TouchConstants<T>& pair = table.at(surfaces.body_of_point(overlap.point), overlap.body);
+      const PairConstants<T>& pair = table.at(surfaces.body_of_point(overlap.point), overlap.body);
       return grown(overlap, pair) < pair.reach;
     });
   }
@@ -51,18 +51,18 @@ class InitialOverlaps {
   bool active() const { return active_; }
 
   /// ρ, or the distance at which forces between the point and the body begin now [m].
-  T reach(std::uint32_t point, std::uint32_t body, const TouchConstants<T>& pair) const {
+  T reach(std::uint32_t point, std::uint32_t body, const PairConstants<T>& pair) const {
     const Overlap* const overlap = find(point, body, pair);
     return overlap ? grown(*overlap, pair) : pair.reach;
   }
   /// D, larger for a pair that is pushed apart slowly [m].
-  T depth(std::uint32_t point, std::uint32_t body, const TouchConstants<T>& pair) const {
+  T depth(std::uint32_t point, std::uint32_t body, const PairConstants<T>& pair) const {
     return find(point, body, pair) ? pair.eased : pair.depth;
   }
 
  private:
-  T grown(const Overlap& overlap, const TouchConstants<T>& pair) const { return overlap.d + pair.s * time_; }
-  const Overlap* find(std::uint32_t point, std::uint32_t body, const TouchConstants<T>& pair) const {
+  T grown(const Overlap& overlap, const PairConstants<T>& pair) const { return overlap.d + pair.s * time_; }
+  const Overlap* find(std::uint32_t point, std::uint32_t body, const PairConstants<T>& pair) const {
     if (!active_) return nullptr;
     const auto key = [](const Overlap& of) { return std::tuple(of.point, of.body); };
     const auto found = std::ranges::lower_bound(all_, std::tuple(point, body), {}, key);

@@ -4,10 +4,10 @@ namespace aspic::physics {
 namespace {
 
 template <class T>
-TouchConstants<T> rounded_pair(const ContactSettings& contact, const TouchBody& a, const TouchBody& b,
-                               bool same, double ahead_step) {
-  const TouchPair exact = touch_pair(contact, a, b, same);
-  const TouchPair pair = ahead_step > 0.0 ? seen_ahead(exact, ahead_step) : exact;
+PairConstants<T> rounded_pair(const ContactSettings& contact, const ContactBody& a, const ContactBody& b,
+                              bool same, double ahead_step) {
+  const ContactPair exact = contact_pair(contact, a, b, same);
+  const ContactPair pair = ahead_step > 0.0 ? seen_ahead(exact, ahead_step) : exact;
   return {static_cast<T>(pair.stiffness),
           static_cast<T>(pair.damping),
           static_cast<T>(pair.friction),
@@ -25,21 +25,21 @@ TouchConstants<T> rounded_pair(const ContactSettings& contact, const TouchBody& 
 }  // namespace
 
 template <class T>
-TouchTable<T>::TouchTable(const ContactSettings& contact, const std::vector<TouchBody>& bodies,
-                          double ahead_step) {
-  std::vector<const TouchBody*> kinds;
-  for (const TouchBody& body : bodies) {
-    const auto found = std::ranges::find_if(kinds, [&](const TouchBody* k) { return k->alike(body); });
+PairTable<T>::PairTable(const ContactSettings& contact, const std::vector<ContactBody>& bodies,
+                        double ahead_step) {
+  std::vector<const ContactBody*> kinds;
+  for (const ContactBody& body : bodies) {
+    const auto found = std::ranges::find_if(kinds, [&](const ContactBody* k) { return k->alike(body); });
     kind_.push_back(static_cast<std::uint32_t>(found - kinds.begin()));
     if (found == kinds.end()) kinds.push_back(&body);
   }
   kinds_ = static_cast<std::uint32_t>(kinds.size());
-  for (const TouchBody* a : kinds) pairs_.push_back(rounded_pair<T>(contact, *a, *a, true, ahead_step));
-  for (const TouchBody* a : kinds)
-    for (const TouchBody* b : kinds) pairs_.push_back(rounded_pair<T>(contact, *a, *b, false, ahead_step));
+  for (const ContactBody* a : kinds) pairs_.push_back(rounded_pair<T>(contact, *a, *a, true, ahead_step));
+  for (const ContactBody* a : kinds)
+    for (const ContactBody* b : kinds) pairs_.push_back(rounded_pair<T>(contact, *a, *b, false, ahead_step));
 }
 
-template class TouchTable<float>;
-template class TouchTable<double>;
+template class PairTable<float>;
+template class PairTable<double>;
 
 }  // namespace aspic::physics

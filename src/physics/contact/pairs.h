@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/touch_surface.h"
+#include "model/contact_surface.h"
 
 namespace aspic::physics {
 
-/// Constants of a pair of bodies in the solver's precision (TouchPair).
+/// Constants of a pair of bodies in the solver's precision (ContactPair).
 template <class T>
-struct TouchConstants {
+struct PairConstants {
   T k;       ///< stiffness [N/m]
   T c;       ///< damping [N·s/m]
   T mu;      ///< μ
@@ -27,31 +27,31 @@ struct TouchConstants {
 
 /// Constants of every pair of bodies, held once for bodies that are alike.
 template <class T>
-class TouchTable {
+class PairTable {
  public:
-  TouchTable(const ContactSettings& contact, const std::vector<TouchBody>& bodies, double ahead_step);
+  PairTable(const ContactSettings& contact, const std::vector<ContactBody>& bodies, double ahead_step);
   /// Number of the pair.
   std::uint32_t of(std::uint32_t point_of, std::uint32_t face_of) const {
     return point_of == face_of ? kind_[point_of] : (1 + kind_[point_of]) * kinds_ + kind_[face_of];
   }
-  const TouchConstants<T>& operator[](std::uint32_t pair) const { return pairs_[pair]; }
-  const std::vector<TouchConstants<T>>& pairs() const { return pairs_; }
-  const TouchConstants<T>& at(std::uint32_t point_of, std::uint32_t face_of) const {
+  const PairConstants<T>& operator[](std::uint32_t pair) const { return pairs_[pair]; }
+  const std::vector<PairConstants<T>>& pairs() const { return pairs_; }
+  const PairConstants<T>& at(std::uint32_t point_of, std::uint32_t face_of) const {
     return pairs_[of(point_of, face_of)];
   }
   /// Whether any pair has friction.
-  bool rubs() const {
-    return std::ranges::any_of(pairs_, [](const TouchConstants<T>& pair) { return pair.mu > T(0); });
+  bool has_friction() const {
+    return std::ranges::any_of(pairs_, [](const PairConstants<T>& pair) { return pair.mu > T(0); });
   }
 
  private:
-  std::vector<std::uint32_t> kind_;       // by body
-  std::uint32_t kinds_ = 0;               // so many
-  std::vector<TouchConstants<T>> pairs_;  // by kind, of a body with itself; then by both kinds
+  std::vector<std::uint32_t> kind_;      // by body
+  std::uint32_t kinds_ = 0;              // so many
+  std::vector<PairConstants<T>> pairs_;  // by kind, of a body with itself; then by both kinds
 };
 
 // Compiled once, in pairs.cpp.
-extern template class TouchTable<float>;
-extern template class TouchTable<double>;
+extern template class PairTable<float>;
+extern template class PairTable<double>;
 
 }  // namespace aspic::physics

@@ -12,16 +12,17 @@ namespace aspic::physics {
 /// Whether a triangle counts for a point with normal N: it has an area and, between closed surfaces, faces
 /// the point.
 template <class T>
-bool counts(const Face<T>& face, const TouchConstants<T>& pair, const Vector<T>& N) {
+bool counts(const Face<T>& face, const PairConstants<T>& pair, const Vector<T>& N) {
   return face.real && (!pair.opposing || dot3<T>(N, face.g) < T(0));
 }
 
 /// The contacts of a point with one body: calls add(sight, gap) for the first contact, then for those with
 /// other sides, ascending. `sights`: of the triangles that count, ascending; `depth`: D [m].
 template <class T, class Add>
-void select_contacts(const std::vector<Sight<T>>& sights, const TouchConstants<T>& pair, T depth,
+void select_contacts(const std::vector<ClosestPoint<T>>& sights, const PairConstants<T>& pair, T depth,
                      const Add& add) {
-  const Sight<T>* const first = nearest_of<T>(sights, pair.tie, [](const Sight<T>&) { return true; });
+  const ClosestPoint<T>* const first =
+      nearest_of<T>(sights, pair.tie, [](const ClosestPoint<T>&) { return true; });
   if (!first) return;
   const auto gap = pair.closed ? closed_gap<T>(*first, pair.sight, depth) : open_gap<T>(*first, pair.sight);
   if (gap) add(*first, *gap);
@@ -29,13 +30,13 @@ void select_contacts(const std::vector<Sight<T>>& sights, const TouchConstants<T
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   const auto next_side = [&](std::uint32_t least) {
     std::uint32_t side = none;
-    for (const Sight<T>& seen : sights)
+    for (const ClosestPoint<T>& seen : sights)
       if (seen.side >= least && seen.side != first->side) side = std::min(side, seen.side);
     return side;
   };
   for (std::uint32_t side = next_side(0); side != none; side = next_side(side + 1)) {
-    const Sight<T>& seen =
-        *nearest_of<T>(sights, pair.tie, [&](const Sight<T>& each) { return each.side == side; });
+    const ClosestPoint<T>& seen =
+        *nearest_of<T>(sights, pair.tie, [&](const ClosestPoint<T>& each) { return each.side == side; });
     if (straight_in_front<T>(seen, pair.sight)) add(seen, *closed_gap<T>(seen, pair.sight, depth));
   }
 }

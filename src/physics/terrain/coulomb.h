@@ -40,7 +40,7 @@ T least_normal_speed(const ContactConstants<T>& contact, T d0) {
 
 /// Tangential velocity after friction has taken up to `loss` [m/s] off it. It never turns around.
 template <class T>
-Vector<T> rubbed(const Vector<T>& v_t, T loss) {
+Vector<T> after_friction(const Vector<T>& v_t, T loss) {
   const T slip = norm3<T>(v_t);
   if (!(slip > T(0))) return v_t;
   const T kept = T(1) - loss / slip;
@@ -54,7 +54,7 @@ Vector<T> projected(T friction, const Vector<T>& n, T c, const Vector<T>& v1) {
   const T u = dot3<T>(v1, n);
   if (!(u < c)) return v1;
   const Vector<T> v_t = v1 - u * n;
-  return rubbed<T>(v_t, friction * (c - u)) + c * n;
+  return after_friction<T>(v_t, friction * (c - u)) + c * n;
 }
 
 /// The force f [N] with the ground's reaction: kept for a complete step it turns v0 into P(v0 + (h·w)·f).
@@ -128,7 +128,7 @@ void respond_coulomb(const Ground<T>& ground, const ContactConstants<T>& contact
   const T u_after = speed_after_contact<T>(ground, contact, m, g0.d, u0, g.d, u);
   if (u_after > u) {
     const Vector<T> v_t = v_r - u * g.n;
-    v = ground.end.absolute(rubbed<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n);
+    v = ground.end.absolute(after_friction<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n);
   }
   const T rise = undue_rise<T>(contact, g0.d, u0, g.d, u_after);
   if (rise > T(0)) {

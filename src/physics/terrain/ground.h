@@ -117,7 +117,8 @@ struct ContactConstants {
 };
 
 /// The course model's contact force: f [N] on a body with this gap and velocity after gravity and springs,
-/// resisted and rubbed. Ground that moves is where it is at the step's start, in all of its evaluations.
+/// resisted and after_friction. Ground that moves is where it is at the step's start, in all of its
+/// evaluations.
 template <class T>
 Vector<T> with_contact_force(const Ground<T>& ground, T epsilon, const Gap<T>& at, const Vector<T>& v,
                              const Vector<T>& f) {

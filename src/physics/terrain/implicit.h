@@ -290,7 +290,7 @@ void respond_solved(const Ground<T>& ground, const ContactConstants<T>& contact,
       const T u_after = bounced_speed<T>(ground, contact, m, g0.d, drop, u0, du, mean);
       if (u_after > u) {
         const Vector<T> v_t = v_r - u * g.n;
-        v = ground.end.absolute(rubbed<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n);
+        v = ground.end.absolute(after_friction<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n);
       }
     }
   }
