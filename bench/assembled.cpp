@@ -69,7 +69,7 @@ Trial<float> AssembledSystem::evaluate() {
   Field f(3, count);
   std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0f);
   for (std::uint32_t i = 0; i < count; ++i) {
-    f.col(i) = dynamics_.mass(i) * dynamics_.gravity();
+    f.col(i) = dynamics_.mass(i) * dynamics_.body_force().gravity;
     const std::size_t at = place(i, i);
     for (std::size_t r = 0; r < 3; ++r) matrix_.valuePtr()[at + r * row_size_[i] + r] = dynamics_.mass(i);
   }
@@ -90,7 +90,7 @@ Trial<float> AssembledSystem::evaluate() {
     r_.col(i) = h_ * f.col(i) - dynamics_.mass(i) * change;
     result.residual = std::max(result.residual, physics::largest_component<float>(R));
     result.merit += R.squaredNorm();
-    result.falling += (R + h_ * dynamics_.gravity()).squaredNorm();
+    result.falling += (R + h_ * dynamics_.body_force().gravity).squaredNorm();
   }
   return result;
 }
@@ -101,7 +101,7 @@ Trial<float> AssembledSystem::start() {
 }
 
 Trial<float> AssembledSystem::fall() {
-  trial_ = s_->v.colwise() + h_ * dynamics_.gravity();
+  trial_ = s_->v.colwise() + h_ * dynamics_.body_force().gravity;
   return evaluate();
 }
 

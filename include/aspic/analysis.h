@@ -22,14 +22,14 @@ namespace aspic {
 /// What a series row holds of one state.
 struct Measures {
   double kinetic = 0.0;  ///< Σ ½ m v², of balls also ½ I ω² [J]
-  /// Σ ½ k (L − r)² [J], of actuated springs with the rest length r of the state's time, of pushes between
-  /// bodies Σ ½ k (ρ − d)²; a slack cord holds none
+  /// Of springs Σ ½ k (L − r)², r being that of the state's time, and of contact Σ ½ k (ρ − d)² [J].
   double elastic = 0.0;
-  std::optional<double> contact;  ///< of it, what these pushes hold [J]; nothing where bodies cannot touch
-  double gravitational = 0.0;     ///< −Σ m g·x [J], zero at the origin
-  Vec3 momentum;                  ///< Σ m v [N·s]
-  double max_speed = 0.0;         ///< [m/s]
-  double min_height = 0.0;        ///< lowest y of all particles and balls' centres [m]; 0 without any
+  std::optional<double> contact;     ///< of it, what these pushes hold [J]; nothing where bodies cannot touch
+  double gravitational = 0.0;        ///< −Σ m g·x [J], zero at the origin
+  std::optional<double> drag_power;  ///< Σ γ m v² [W], which drag dissipates; nothing without drag
+  Vec3 momentum;                     ///< Σ m v [N·s]
+  double max_speed = 0.0;            ///< [m/s]
+  double min_height = 0.0;           ///< lowest y of all particles and balls' centres [m]; 0 without any
 
   ASPIC_API double total() const;  ///< kinetic, elastic and gravitational [J]
 };

@@ -78,6 +78,7 @@ struct SimulationSettings {
   Vec3 gravity = {0.0, -9.8, 0.0};                     ///< g [m/s²]
   int steps_per_frame = 8;                             ///< in the window, ≥ 1
   ImplicitSettings implicit;                           ///< for implicit-euler alone
+  double drag = 0.0;  ///< γ [1/s], ≥ 0: the force −γ·m·v on every particle and ball
 };
 
 /// Contact of particles and balls with terrain, of balls with each other, and of bodies.
@@ -127,8 +128,7 @@ struct MaterialSettings {
   double density = 16.0;            ///< ρ [kg/m³], > 0
   double youngs_modulus = 33000.0;  ///< E [Pa], > 0
   double damping_ratio = 0.95;      ///< ζ, ≥ 0
-  /// In ModelSettings::materials its name, which bodies use; elsewhere the one of these that takes the place
-  /// of the numbers, empty for none.
+  /// In ModelSettings::materials its name; in a body that of the material to use instead of the numbers.
   std::string name = {};
 };
 

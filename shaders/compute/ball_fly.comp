@@ -1,4 +1,4 @@
-// Balls, first of a step: flight by all stages of the integrator at once, under gravity and pulls (backward
+// Balls, first of a step: flight by all stages of the integrator at once, under gravity, drag and pulls (backward
 // Euler of free flight is symplectic Euler, whose stages are in the table then), and the terrain's response. Start
 // slot to the slot between.
 // NVIDIA's compiler takes twice as long otherwise. Others ignore it.
@@ -56,7 +56,7 @@ void main() {
   precise float w = 0.0;
   if (body.launch_step <= steps_done()) {
     w = body.ball_inverse_mass;
-    precise vec3 weight = body.ball_mass * gravity.xyz;
+    precise vec3 weight = body_force(body.ball_mass, v);
     uint number = particle_count + b;
     precise vec3 f = with_pulls(number, x, v, weight);
     fly(start, body, f, x, v);

@@ -21,7 +21,7 @@ precise vec3 other_x, other_v;
 #define TAKE(p)                                                           \
   own[p] = stage_state[particle_at(body, own_block, first_place + (p))]; \
   patterns[p] = pattern_of(body, record, uint(first_place + (p)));        \
-  force[p] = own[p].velocity.w * gravity.xyz;
+  force[p] = body_force(own[p].velocity.w, own[p].velocity.xyz);
 #define MOVE_DOWN(p)    \
   own[p] = own[p + 1];  \
   force[p] = force[p + 1];

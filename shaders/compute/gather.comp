@@ -21,7 +21,7 @@ void main() {
 #endif
   use_lengths(step_index, stage_index);
   Particle p = stage_state[i];
-  precise vec3 f = p.velocity.w * gravity.xyz;
+  precise vec3 f = body_force(p.velocity.w, p.velocity.xyz);
   Walk w = walk_words(place);
   for (w.end = bounded(w.end, KERNEL_GATHER); w.at < w.end; ++w.at) {
     Link link;

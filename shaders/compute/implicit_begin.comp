@@ -15,7 +15,7 @@ layout(location = LOCATION_CONTACT_COUNT) uniform uint contact_count;  // encoun
 
 // Gravity, springs and pulls.
 vec3 force(uint i, Particle p) {
-  precise vec3 f = p.velocity.w * gravity.xyz;
+  precise vec3 f = body_force(p.velocity.w, p.velocity.xyz);
   Walk w = walk(i);
   for (w.end = bounded(w.end, KERNEL_IMPLICIT_BEGIN); w.at < w.end; ++w.at) {
     Link link;

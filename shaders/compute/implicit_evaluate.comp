@@ -43,8 +43,8 @@ void keep_reaction(uint i, Reaction reaction, vec3 R) {
 vec4 evaluate(uint i) {
   Particle p = state(i);
   precise vec3 v = trial[i].xyz;
-  precise vec3 f = p.velocity.w * gravity.xyz;
-  DiagonalBlock block = block_of_mass(p.velocity.w);
+  precise vec3 f = body_force(p.velocity.w, v);
+  DiagonalBlock block = block_of_mass(implicit_mass(p.velocity.w));
   Walk w = walk(i);
   for (w.end = bounded(w.end, KERNEL_IMPLICIT_EVALUATE); w.at < w.end; ++w.at) {
     Link link;

@@ -10,7 +10,7 @@ precise vec3 other_x, other_v;
 // Particle p of the run, from the state.
 #define TAKE(p)                                                            \
   own[p] = stage_state[uint(min(first_of_run + (p), last_of_lattice))];   \
-  force[p] = own[p].velocity.w * gravity.xyz;                              \
+  force[p] = body_force(own[p].velocity.w, own[p].velocity.xyz);           \
   steps[p] = steps_from(place, size);                                      \
   place.z++;                                                               \
   if (place.z == size.z) { place.z = 0u; place.y++; }                        \

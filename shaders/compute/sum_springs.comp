@@ -13,7 +13,7 @@ void main() {
   uint i = item_index();
   if (i >= particle_count || halted()) return;
   Particle p = stage_state[i];
-  precise vec3 f = p.velocity.w * gravity.xyz;
+  precise vec3 f = body_force(p.velocity.w, p.velocity.xyz);
   Walk w = walk_words(i);
   for (w.end = bounded(w.end, KERNEL_SUM_SPRINGS); w.at < w.end; ++w.at) {
     uint word = word_at(w);  // spring << 1 | 1 at its end b

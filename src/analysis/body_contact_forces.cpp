@@ -44,7 +44,7 @@ void BodyContactForces::find(const SpringFinder& springs, const State& state, co
   std::vector<Vector> before, pushes(contact_->particles().size(), Vector::Zero());
   for (const std::uint32_t p : contact_->particles()) {
     const ParticleForce f = particle_force(model_, springs, state, p, inputs);
-    before.push_back(physics::rounded<double>(f.gravity + f.springs + f.pull));
+    before.push_back(physics::rounded<double>(f.gravity + f.drag + f.springs + f.pull));
   }
   std::vector<Vector> after = before;
   contact_->add_forces(

@@ -37,13 +37,15 @@ double Measures::total() const {
 Measures measure_motion(const Model& model, const State& state) {
   assert(check_sizes(model, state));
   Measures m;
-  double fastest_squared = 0.0;
+  const double drag = model.simulation.drag;
+  double fastest_squared = 0.0, resisted = 0.0;  // Σ m v²
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < model.mass.size(); ++i) {
     m.gravitational -= model.mass[i] * dot(model.simulation.gravity, state.position[i]);
     lowest = std::min(lowest, state.position[i].y);
     const double speed_squared = dot(state.velocity[i], state.velocity[i]);
     m.kinetic += 0.5 * model.mass[i] * speed_squared;
+    resisted += model.mass[i] * speed_squared;
     m.momentum = m.momentum + model.mass[i] * state.velocity[i];
     fastest_squared = std::max(fastest_squared, speed_squared);
   }
@@ -54,10 +56,12 @@ Measures measure_motion(const Model& model, const State& state) {
     m.gravitational -= ball.mass * dot(model.simulation.gravity, state.ball_position[b]);
     m.kinetic += 0.5 * ball.mass * dot(v, v) + 0.5 * ball.inertia() * dot(omega, omega);
     m.momentum = m.momentum + ball.mass * v;
+    resisted += ball.mass * dot(v, v);
     lowest = std::min(lowest, state.ball_position[b].y);
     fastest_squared = std::max(fastest_squared, dot(v, v));
   }
   m.max_speed = std::sqrt(fastest_squared);
+  if (drag > 0.0) m.drag_power = drag * resisted;
   if (std::isfinite(lowest)) m.min_height = lowest;
   return m;
 }

@@ -38,7 +38,7 @@ std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder&
       if (!(physics::distance<double>(ground, ground.start, x) < constants.epsilon)) continue;
       if (!f) {
         const ParticleForce force = particle_force(model, springs, state, i, inputs, bodies);
-        f = physics::rounded<double>(force.gravity + force.springs + force.pull + force.bodies);
+        f = physics::rounded<double>(force.gravity + force.drag + force.springs + force.pull + force.bodies);
       }
       const Vector before = *f;
       f = with_contact(model, constants, ground, w, x, physics::rounded<double>(state.velocity[i]), before);

@@ -8,6 +8,7 @@
 #include "model/counts.h"
 #include "model/inputs.h"
 #include "model/springs.h"
+#include "physics/body_force.h"
 #include "physics/springs/law.h"
 
 namespace aspic {
@@ -58,7 +59,9 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
   const Vector x = exact(state.position[particle]), v = exact(state.velocity[particle]);
   ParticleForce force;
   force.gravity = model.mass[particle] * model.simulation.gravity;
-  Vector net = exact(force.gravity), sum = Vector::Zero();
+  const Vector body = physics::BodyForce<double>(model).at(model.mass[particle], v);
+  force.drag = back(body) - force.gravity;
+  Vector net = body, sum = Vector::Zero();
   const std::vector<double> lengths = rest_lengths(model, state.step, 0.0, inputs.channels);
   const auto pulled = [&](const SpringClass& spring, const Vec3& other_x, const Vec3& other_v) -> Vector {
     return physics::spring_force<double>(physics::SpringConstants<double>(spring), x, v, exact(other_x),
@@ -108,6 +111,7 @@ ParticleForce ball_force(const Model& model, const State& state, std::uint32_t b
   assert(check_sizes(model, state) && ball < model.ball_count());
   ParticleForce force;
   force.gravity = model.balls[ball].mass * model.simulation.gravity;
+  force.drag = (-model.simulation.drag * model.balls[ball].mass) * state.ball_velocity[ball];
   for (const Pull& pull : inputs.pulls) {
     if (!pull.ball || pull.particle != ball) continue;
     const auto exact = [](const Vec3& v) { return physics::rounded<double>(v); };
@@ -116,7 +120,7 @@ ParticleForce ball_force(const Model& model, const State& state, std::uint32_t b
         exact(state.ball_velocity[ball]), exact(pull.anchor), exact({}));
     force.pull = force.pull + Vec3{f.x(), f.y(), f.z()};
   }
-  force.net = force.applied = force.gravity + force.pull;
+  force.net = force.applied = force.gravity + force.drag + force.pull;
   return force;
 }
 

@@ -31,10 +31,12 @@ constexpr std::uint64_t work_of_mode = 500;
 /// without a closer look have in common.
 class BodyAnalysis {
  public:
-  BodyAnalysis(LinearisedBody body, const Effort& effort, WorkBudget& work)
-      : body_(std::move(body)), effort_(effort), work_(work) {}
+  /// `drag` γ [1/s] adds to the damping of every mode.
+  BodyAnalysis(LinearisedBody body, double drag, const Effort& effort, WorkBudget& work)
+      : body_(std::move(body)), drag_(drag), effort_(effort), work_(work) {}
 
   const LinearisedBody& body() const { return body_; }
+  double drag() const { return drag_; }
   WorkBudget& work() { return work_; }
   /// Whether all eigenvalues can be afforded: about 10·(2n)³ operations, twenty of which make a spring
   /// evaluation.
@@ -65,6 +67,7 @@ class BodyAnalysis {
 
  private:
   LinearisedBody body_;
+  double drag_;
   Effort effort_;
   WorkBudget& work_;
   std::optional<LargestEigenvalue> kappa_, gamma_;
@@ -96,11 +99,11 @@ StabilityLimit proportional_limit(BodyAnalysis& analysis, Integrator integrator)
   const LargestEigenvalue top = by_damping ? analysis.gamma_max() : analysis.kappa_max();
   const auto at = [&](double share) {
     const double value = share * top.value;
-    return by_damping ? of_mode(integrator, 0.0, value)
-                      : of_mode(integrator, value, body.smallest_ratio() * value);
+    return by_damping ? of_mode(integrator, 0.0, value + analysis.drag())
+                      : of_mode(integrator, value, body.smallest_ratio() * value + analysis.drag());
   };
   const StabilityLimit end = at(1.0);
-  StabilityLimit least = end;
+  StabilityLimit least = smaller(end, of_mode(integrator, 0.0, analysis.drag()));
   scan_unit_interval(300, [&](double share) { least = smaller(least, at(share)); });
   analysis.work().spend(600 * work_of_mode);
   // The interval holds all eigenvalues, but not each of its points is one: only its upper end is sure to be.
@@ -116,10 +119,10 @@ StabilityLimit symplectic_limit(BodyAnalysis& analysis) {
   const auto excess = [&](double h) {
     const LargestEigenvalue top = analysis.largest(h * h, 2.0 * h);
     converged = converged && top.converged;
-    return top.value - 4.0;
+    return top.value + 2.0 * h * analysis.drag() - 4.0;
   };
   const double kappa = analysis.kappa_max().value;
-  const double gamma = analysis.gamma_max().value;
+  const double gamma = analysis.gamma_max().value + analysis.drag();
   double low =
       *mode_limit(Integrator::symplectic_euler, kappa, gamma);  // both extremes at once: never too large
   double high = std::min(*mode_limit(Integrator::symplectic_euler, kappa, 0.0),
@@ -157,7 +160,7 @@ StabilityLimit dense_limit(BodyAnalysis& analysis, Integrator integrator) {
 
 /// Bounds on all (κ, γ) of a body: largest values, and ratios γ/κ [s].
 struct ModeBounds {
-  double kappa_max, gamma_max, smallest_ratio, largest_ratio;
+  double kappa_max, gamma_max, smallest_ratio, largest_ratio, drag;
 };
 
 /// The minimum over every (κ, γ) with κ ≤ κ_max, γ ≤ γ_max and γ/κ between the springs' own ratios: for an
@@ -172,31 +175,33 @@ StabilityLimit bounded_limit(const ModeBounds& body, WorkBudget& work, Integrato
     const double from = gamma_of(body.smallest_ratio, kappa), to = gamma_of(body.largest_ratio, kappa);
     constexpr int steps = 40;
     for (int i = 0; i <= steps; ++i) {
-      least = smaller(least, of_mode(integrator, kappa, from + (to - from) * i / steps));
+      least = smaller(least, of_mode(integrator, kappa, body.drag + (from + (to - from) * i / steps)));
     }
   };
   scan_unit_interval(60, [&](double share) { visit(share * body.kappa_max); });
   work.spend(std::uint64_t{120} * 41 * work_of_mode);
-  least = smaller(least, of_mode(integrator, 0.0, body.gamma_max));
+  least = smaller(least, of_mode(integrator, 0.0, body.gamma_max + body.drag));
   least.exact = false;
   return least;
 }
 
 ModeBounds bounds_of(BodyAnalysis& analysis) {
   const LinearisedBody& body = analysis.body();
-  return {analysis.kappa_max().value, analysis.gamma_max().value, body.smallest_ratio(),
-          body.largest_ratio()};
+  return {analysis.kappa_max().value, analysis.gamma_max().value, body.smallest_ratio(), body.largest_ratio(),
+          analysis.drag()};
 }
 
 StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   const LinearisedBody& body = analysis.body();
   const IntegratorRow& row = row_of(integrator);
-  if (row.traits.stable_at_any_step || !body.has_springs()) return {infinity, true};
+  if (row.traits.stable_at_any_step) return {infinity, true};
+  if (!body.has_springs()) return of_mode(integrator, 0.0, analysis.drag());
   if (!std::isfinite(body.eigenvalue_bound(1.0, 0.0)) || !std::isfinite(body.eigenvalue_bound(0.0, 1.0)))
     return {0.0, false};
   if (body.proportional()) return proportional_limit(analysis, integrator);
   if (integrator == Integrator::symplectic_euler) return symplectic_limit(analysis);
-  if (analysis.small() && !row.staged()->mode_limit) return dense_limit(analysis, integrator);
+  if (analysis.small() && analysis.drag() == 0.0 && !row.staged()->mode_limit)
+    return dense_limit(analysis, integrator);
   return bounded_limit(bounds_of(analysis), analysis.work(), integrator);
 }
 
@@ -299,7 +304,7 @@ std::vector<StabilityLimit> contact_limits(const Model& model, std::span<const I
   Added rest_added;
   std::vector<std::pair<const Body*, Added>> looked_at;
   const auto take = [&](LinearisedBody body, const Added& with) {
-    BodyAnalysis analysis(std::move(body), means, work);
+    BodyAnalysis analysis(std::move(body), model.simulation.drag, means, work);
     for (std::size_t i = 0; i < integrators.size(); ++i)
       limits[i] = smaller(limits[i], contact_limit(analysis, with, integrators[i]));
   };
@@ -331,7 +336,7 @@ std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const
   WorkBudget work(means.evaluations, watch);
   LinearisedBody rest;
   const auto take = [&](LinearisedBody body) {
-    BodyAnalysis analysis(std::move(body), means, work);
+    BodyAnalysis analysis(std::move(body), model.simulation.drag, means, work);
     for (std::size_t i = 0; i < integrators.size(); ++i) {
       limits[i] = smaller(limits[i], at_shortest(analysis, body_limit(analysis, integrators[i])));
     }

@@ -54,7 +54,7 @@ StateQuantities quantities_of(const Model& model, const State& state, const Inpu
   const std::uint32_t count = model.particle_count();
   for (std::uint32_t i = 0; i < count; ++i) {
     q.speed.push_back(length(state.velocity[i]));
-    q.force.push_back(model.mass[i] * model.simulation.gravity);
+    q.force.push_back(model.mass[i] * (model.simulation.gravity - model.simulation.drag * state.velocity[i]));
   }
   add_springs(model, state, inputs, q);
   for (const Pull& pull : inputs.pulls) {

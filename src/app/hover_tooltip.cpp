@@ -77,6 +77,7 @@ Box particle_readout(const Gui& gui, const PlaybackSession& simulation, const Ho
     // What a ball touches acts on it by impulses.
     row(h.ball && !h.contact.empty() ? "f without contact" : "f", f.net, "N", components);
     row("  gravity", f.gravity, "N", components);
+    if (f.drag != Vec3{}) row("  drag", f.drag, "N", components);
     if (!h.ball) row("  springs", f.springs, "N", components);
     if (f.pull != Vec3{}) row("  hand", f.pull, "N", components);
     if (f.bodies != Vec3{}) row("  bodies", f.bodies, "N", components);

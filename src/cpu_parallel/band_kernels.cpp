@@ -163,7 +163,7 @@ void BandGhosts(const Bands& bands, const ForceInput& input, BandSweep& sweep, s
 void BandWeights(const Bands& bands, const ForceInput& input, std::size_t first, std::size_t count,
                  const Forces& sums, std::size_t to) {
   for (std::size_t n = 0; n < count && first + n < bands.count(); n += lanes)
-    store(weight_of(input, bands.first() + first + n), sums, to + n);
+    store(body_force(input, bands.first() + first + n), sums, to + n);
 }
 
 }  // namespace

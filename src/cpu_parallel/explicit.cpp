@@ -190,8 +190,9 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
 void ExplicitSteps::run(Task& task, const StageMove& stage) {
   alignas(64) float f[3][piece_size + slice];
   const Forces forces = {{f[0], f[1], f[2]}};
-  const Vector g = dynamics_.gravity();
-  const ForceInput input = {stage.at, mass_.data(), {g.x(), g.y(), g.z()}, arithmetic_};
+  const Vector g = dynamics_.body_force().gravity;
+  const ForceInput input = {
+      stage.at, mass_.data(), {g.x(), g.y(), g.z()}, dynamics_.body_force().drag, arithmetic_};
   const bool near = near_terrain(*model_, task.box);
   if (stage.at == stage.start) find_resting(task, stage);
   if (in_contact_) task.kept = first_touched(task);

@@ -92,8 +92,8 @@ float ImplicitEuler::sum_of_blocks() const {
 }
 
 Linearisation ImplicitEuler::at(const VectorArray& v, float h) const {
-  const Vector g = dynamics_.gravity();
-  return {&start_->x, &v, mass_.data(), {g.x(), g.y(), g.z()}, h};
+  const Vector g = dynamics_.body_force().gravity;
+  return {&start_->x, &v, mass_.data(), {g.x(), g.y(), g.z()}, dynamics_.body_force().drag, h};
 }
 
 void ImplicitEuler::begin_block(Block& block) {
@@ -182,7 +182,7 @@ reference::Trial<float> ImplicitEuler::update_contacts(bool from_trial) {
 }
 
 reference::Trial<float> ImplicitEuler::fall() {
-  const Vector gained = h_ * dynamics_.gravity();
+  const Vector gained = h_ * dynamics_.body_force().gravity;
   for_each_block([&](Block& block, std::size_t) {
     for (std::size_t i = block.range.first; i < block.range.first + block.range.count; ++i) {
       if (inverse_mass_[i] != 0.0f) parallel::set(end_->v, i, parallel::vector_of(start_->v, i) + gained);
@@ -234,7 +234,7 @@ ResidualShare ImplicitEuler::evaluate_block(Block& block) {
   if (residuals(at, block.range, at_trial.f, system_.r, R, free, meets))
     meet_ground(block, free, meets, R, at_trial.diagonal);
   invert(at_trial.diagonal, block.range, system_);
-  const Vector fall = h_ * dynamics_.gravity();
+  const Vector fall = h_ * dynamics_.body_force().gravity;
   return share_of(R, inverse_mass_.data() + block.range.first, {fall.x(), fall.y(), fall.z()},
                   block.range.count);
 }
@@ -375,9 +375,9 @@ bool ImplicitEuler::end_block(const Block& block) {
       Vector x = parallel::vector_of(end_->x, i), v = parallel::vector_of(end_->v, i);
       if (!ahead_.acts()) dynamics_.respond(static_cast<Eigen::Index>(i), x_0, v_0, x, v);
       for (std::size_t t = 0; ahead_.acts() && t < dynamics_.grounds().size(); ++t)
-        physics::respond_solved<float>(dynamics_.grounds()[t], dynamics_.contact(), dynamics_.gravity(),
-                                       mass_[i], reactions[n] != nullptr && reactions[n]->holds(t), x_0, v_0,
-                                       x, v);
+        physics::respond_solved<float>(dynamics_.grounds()[t], dynamics_.contact(),
+                                       dynamics_.body_force().gravity, mass_[i],
+                                       reactions[n] != nullptr && reactions[n]->holds(t), x_0, v_0, x, v);
       parallel::set(end_->x, i, x);
       parallel::set(end_->v, i, v);
     }

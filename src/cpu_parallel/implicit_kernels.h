@@ -24,6 +24,7 @@ struct Linearisation {
   const VectorArray* v;  ///< v' [m/s]
   const float* mass;     ///< [kg]
   float gravity[3];      ///< [m/s²]
+  float drag;            ///< γ [1/s]
   float h;               ///< [s]
 };
 

@@ -46,14 +46,22 @@ HWY_INLINE Linearised linearised(const SpringLanes& spring, const Vector& e, con
           chosen(idle, {zero, zero, zero}, q * e), across};
 }
 
+/// BodyForce::implicit_mass() of physics/body_force.h.
+HWY_INLINE Float implicit_mass(const Linearisation& at, std::size_t p) {
+  const Float m = hn::LoadU(tag, at.mass + p);
+  return hn::Add(m, hn::Mul(hn::Set(tag, at.h), hn::Mul(hn::Set(tag, at.drag), m)));
+}
+
 /// Force and diagonal block of the particles in the lanes.
 struct Sums {
   Vector f, diagonal, mixed;
 
   HWY_INLINE Sums(const Linearisation& at, std::size_t p) {
     const Float m = hn::LoadU(tag, at.mass + p), zero = hn::Zero(tag);
-    f = m * Vector{hn::Set(tag, at.gravity[0]), hn::Set(tag, at.gravity[1]), hn::Set(tag, at.gravity[2])};
-    diagonal = {m, m, m};
+    const Vector g = {hn::Set(tag, at.gravity[0]), hn::Set(tag, at.gravity[1]), hn::Set(tag, at.gravity[2])};
+    f = m * g - hn::Mul(hn::Set(tag, at.drag), m) * load(*at.v, p);
+    const Float mass = implicit_mass(at, p);
+    diagonal = {mass, mass, mass};
     mixed = {zero, zero, zero};
   }
   HWY_INLINE void add(Mask mask, const Linearised& s, Float along) {
@@ -154,7 +162,7 @@ HWY_INLINE void multiply_lattice(const LatticeStencil& lattice, const Jacobians&
   for (std::size_t m = own.first / lanes * lanes; m < own.first + own.count; m += lanes) {
     const std::size_t i = lattice.first() + segment.plane * lattice.plane_size() + m;
     const Vector p_i = load(p, i);
-    Vector product = hn::LoadU(tag, at.mass + i) * p_i;
+    Vector product = implicit_mass(at, i) * p_i;
     for_each_direction(lattice, segment.plane, m, [&](std::size_t d, Mask mask) {
       const Direction& to = directions[d];
       const std::size_t other = i + static_cast<std::size_t>(to.step);
@@ -254,7 +262,7 @@ void MultiplyLists(const SpringLists& lists, const Jacobians& jacobians, const L
     const std::size_t i = lists.first() + local, lane = local % slice;
     std::size_t number = first_slot(lists, local / slice);
     const Vector p_i = load(p, i);
-    Vector product = hn::LoadU(tag, at.mass + i) * p_i;
+    Vector product = implicit_mass(at, i) * p_i;
     for (const SpringLists::Slot& slot : lists.slots(local / slice)) {
       const SlotLanes lane_of(slot, lane);
       const Vector difference = p_i - gathered(p, lane_of.other);

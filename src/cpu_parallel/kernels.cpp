@@ -21,7 +21,7 @@ void listed_forces_in(const SpringLists& lists, const ForceInput& input, Range r
   for (std::size_t n = 0; n < range.count; n += lanes) {
     const std::size_t local = range.first + n, lane = local % slice, p = lists.first() + local;
     const Vector x = load(at.x, p), v = load(at.v, p);
-    Vector f = weight_of(input, p);
+    Vector f = body_force(input, p);
     for (const SpringLists::Slot& slot : lists.slots(local / slice)) {
       const auto other = hn::LoadU(index_tag, slot.neighbour.data() + lane);
       const auto kind = hn::LoadU(index_tag, slot.spring_class.data() + lane);

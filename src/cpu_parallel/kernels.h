@@ -23,11 +23,12 @@ struct ForceInput {
   const Particles* at;  ///< the stage at which forces are taken
   const float* mass;    ///< [kg]
   float gravity[3];     ///< [m/s²]
+  float drag;           ///< γ [1/s]
   Arithmetic arithmetic = Arithmetic::exact;
 };
 
-/// m·g and the springs of particles of a body with lists; `range` is relative to the body, its first a
-/// multiple of `slice`. Writes up to `slice` − 1 values more than there are particles.
+/// Gravity, drag and the springs of particles of a body with lists; `range` is relative to the body, its
+/// first a multiple of `slice`. Writes up to `slice` − 1 values more than there are particles.
 void listed_forces(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces);
 
 /// One stage of an explicit method (model/integrator.h has the formulas).

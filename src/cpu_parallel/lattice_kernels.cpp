@@ -180,7 +180,7 @@ void LatticeSprings(const LatticeStencil& lattice, const ForceInput& input, Swee
 void BeginPlane(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane) {
   const std::size_t first = lattice.first() + plane * lattice.plane_size();
   for (std::size_t m = 0; m < lattice.plane_size(); m += lanes)
-    store(weight_of(input, first + m), sweep.plane(plane), m);
+    store(body_force(input, first + m), sweep.plane(plane), m);
 }
 
 }  // namespace

@@ -67,10 +67,12 @@ HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[s
   for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::NegMulAdd(q[i], along[i], of[i % size].k);
 }
 
-HWY_INLINE Vector weight_of(const ForceInput& input, std::size_t i) {
-  const Float m = hn::LoadU(tag, input.mass + i);
-  return {hn::Mul(m, hn::Set(tag, input.gravity[0])), hn::Mul(m, hn::Set(tag, input.gravity[1])),
-          hn::Mul(m, hn::Set(tag, input.gravity[2]))};
+/// BodyForce::at() of physics/body_force.h.
+HWY_INLINE Vector body_force(const ForceInput& input, std::size_t i) {
+  const Float m = hn::LoadU(tag, input.mass + i), resisted = hn::Mul(hn::Set(tag, input.drag), m);
+  const Vector g = {hn::Set(tag, input.gravity[0]), hn::Set(tag, input.gravity[1]),
+                    hn::Set(tag, input.gravity[2])};
+  return m * g - resisted * load(input.at->v, i);
 }
 
 /// Places as in load() of particles.

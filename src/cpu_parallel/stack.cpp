@@ -61,7 +61,7 @@ Stack::Stack(const std::vector<SharedModel>& models, std::shared_ptr<const Upper
   mass_ = FloatArray(size, 0);
   inverse_mass_ = FloatArray(size, 0);
   constants_ = FloatArray(first.spring_classes.size() * constant_rows * stack_lanes, 0);
-  gravity_ = FloatArray(3 * stack_lanes, 0);
+  gravity_ = FloatArray(4 * stack_lanes, 0);
   fronts_.resize(first.terrain.size());
   near_.reserve(particles_);
   for (const SharedModel& model : models) {
@@ -159,8 +159,9 @@ void Stack::take_constants(std::size_t lane) {
       to += stack_lanes;
     }
   }
-  const Vector g = lanes_[lane].dynamics.gravity();
+  const Vector g = lanes_[lane].dynamics.body_force().gravity;
   for (std::size_t c = 0; c < 3; ++c) gravity_[c * stack_lanes + lane] = g[static_cast<Eigen::Index>(c)];
+  gravity_[3 * stack_lanes + lane] = lanes_[lane].dynamics.body_force().drag;
 }
 
 /// Rest lengths that follow signals, of the stage at that share of the step.

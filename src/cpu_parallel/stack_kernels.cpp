@@ -71,8 +71,11 @@ void StackForces(const StackInput& input, const Particles& at, const Forces& for
     const float* const gravity[3] = {input.gravity + lane, input.gravity + stack_lanes + lane,
                                      input.gravity + 2 * stack_lanes + lane};
     const Vector g = row(gravity, 0);
-    for (std::size_t i = 0; i < particles; ++i)
-      store(hn::Load(tag, mass + i * stack_lanes) * g, rows.f, i * stack_lanes);
+    const Float drag = hn::Load(tag, input.gravity + 3 * stack_lanes + lane);
+    for (std::size_t i = 0; i < particles; ++i) {  // BodyForce::at() of physics/body_force.h
+      const Float m = hn::Load(tag, mass + i * stack_lanes);
+      store(m * g - hn::Mul(drag, m) * row(rows.v, i * stack_lanes), rows.f, i * stack_lanes);
+    }
     for (std::size_t i = 0; i < particles; ++i) {
       const std::size_t own_row = i * stack_lanes, end = springs.start[i + 1];
       std::size_t s = springs.start[i];

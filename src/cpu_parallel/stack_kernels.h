@@ -34,10 +34,10 @@ struct StackInput {
   const UpperEnds* springs;
   const float* constants;  ///< a row for each ConstantRow of each class (Constants has their meaning)
   const float* mass;       ///< [kg]
-  const float* gravity;    ///< a row for each component [m/s²]
+  const float* gravity;    ///< a row for each component [m/s²], then one of drag γ [1/s]
 };
 
-/// m·g and the springs of all particles.
+/// Gravity, drag and the springs of all particles.
 void stack_forces(const StackInput& input, const Particles& at, const Forces& forces);
 
 /// By component and lane, boxes around each model's particles [m].

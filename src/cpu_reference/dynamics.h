@@ -9,6 +9,7 @@
 #include "model/inputs.h"
 #include "model/model.h"
 #include "model/springs.h"
+#include "physics/body_force.h"
 #include "physics/pulls/law.h"
 #include "physics/springs/law.h"
 #include "physics/terrain/coulomb.h"
@@ -22,7 +23,7 @@ class Dynamics {
  public:
   explicit Dynamics(const Model& model)
       : model_(&model),
-        gravity_(rounded<T>(model.simulation.gravity)),
+        body_force_(model),
         contact_(model),
         mass_(model.mass),
         inverse_mass_(model.inverse_mass) {
@@ -84,7 +85,7 @@ class Dynamics {
   /// Terrains in file order.
   const std::vector<Ground<T>>& grounds() const { return grounds_; }
   const ContactConstants<T>& contact() const { return contact_; }
-  Vector<T> gravity() const { return gravity_; }
+  const BodyForce<T>& body_force() const { return body_force_; }
   T mass(Eigen::Index i) const { return mass_[static_cast<std::size_t>(i)]; }
   T inverse_mass(Eigen::Index i) const { return inverse_mass_[static_cast<std::size_t>(i)]; }
   const SpringConstants<T>& spring_class(const Spring& spring) const { return classes_[spring.spring_class]; }
@@ -153,11 +154,11 @@ class Dynamics {
     }
   }
 
-  /// m·g, then the springs, then the pulls. Springs are sorted by (a, b), so each particle's sum runs over
-  /// its springs in ascending neighbour index.
+  /// Gravity and drag, then the springs, then the pulls. Springs are sorted by (a, b), so each particle's sum
+  /// runs over its springs in ascending neighbour index.
   Field<T> force_without_contact(const Field<T>& x, const Field<T>& v, double share = 0.0) const {
     Field<T> f(3, x.cols());
-    for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass(i) * gravity_;
+    for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = body_force_.at(mass(i), v.col(i));
     if (interrupted()) return f;
     const std::vector<SpringConstants<T>> classes = classes_at(share);
     for (const Spring& spring : springs_of(*model_)) {
@@ -184,7 +185,7 @@ class Dynamics {
  private:
   const Model* model_;
   const std::atomic<bool>* flag_ = nullptr;
-  Vector<T> gravity_;
+  BodyForce<T> body_force_;
   ContactConstants<T> contact_;
   std::vector<SpringConstants<T>> classes_;
   std::vector<Ground<T>> grounds_;

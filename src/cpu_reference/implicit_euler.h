@@ -112,7 +112,7 @@ Trial<T> ImplicitEuler<T>::start() {
 
 template <class T>
 Trial<T> ImplicitEuler<T>::fall() {
-  const Vector<T> gained = h_ * dynamics_.gravity();
+  const Vector<T> gained = h_ * dynamics_.body_force().gravity;
   for (Eigen::Index i = 0; i < trial_.cols(); ++i) {
     if (dynamics_.inverse_mass(i) != T(0)) trial_.col(i) = s_->v.col(i) + gained;
   }
@@ -165,8 +165,8 @@ Trial<T> ImplicitEuler<T>::evaluate() {
   std::vector<DiagonalBlock<T>> blocks;
   blocks.reserve(static_cast<std::size_t>(count));
   for (Eigen::Index i = 0; i < count; ++i) {
-    f.col(i) = dynamics_.mass(i) * dynamics_.gravity();
-    blocks.emplace_back(dynamics_.mass(i));
+    f.col(i) = dynamics_.body_force().at(dynamics_.mass(i), trial_.col(i));
+    blocks.emplace_back(dynamics_.body_force().implicit_mass(dynamics_.mass(i), h_));
   }
   jacobian_.clear();
   jacobian_.reserve(spring_count(model_));
@@ -198,7 +198,7 @@ Trial<T> ImplicitEuler<T>::evaluate() {
   ground_.assign(static_cast<std::size_t>(count), {});
   prescribes_ = false;
   std::vector<T> largest(static_cast<std::size_t>(count), T(0)), squared = largest, falling = largest;
-  const Vector<T> fall = h_ * dynamics_.gravity();
+  const Vector<T> fall = h_ * dynamics_.body_force().gravity;
   for (Eigen::Index i = 0; i < count; ++i) {
     DiagonalBlock<T>& block = blocks[static_cast<std::size_t>(i)];
     if (dynamics_.inverse_mass(i) == T(0)) {
@@ -243,7 +243,8 @@ T ImplicitEuler<T>::dot(const Field<T>& a, const Field<T>& b) const {
 template <class T>
 Field<T> ImplicitEuler<T>::product(const Field<T>& p) const {
   Field<T> product(3, p.cols());
-  for (Eigen::Index i = 0; i < p.cols(); ++i) product.col(i) = dynamics_.mass(i) * p.col(i);
+  for (Eigen::Index i = 0; i < p.cols(); ++i)
+    product.col(i) = dynamics_.body_force().implicit_mass(dynamics_.mass(i), h_) * p.col(i);
   std::size_t n = 0;
   for (const Spring& spring : springs_of(model_)) {
     const Vector<T> on_a = jacobian_[n++] * Vector<T>(p.col(spring.a) - p.col(spring.b));
@@ -324,8 +325,8 @@ void ImplicitEuler<T>::respond(const Phase<T>& s, Phase<T>& end) const {
     Vector<T> x = end.x.col(i), v = end.v.col(i);
     for (std::size_t t = 0; t < dynamics_.grounds().size(); ++t) {
       const bool held = ground_[static_cast<std::size_t>(i)].holds(t);
-      respond_solved<T>(dynamics_.grounds()[t], dynamics_.contact(), dynamics_.gravity(), dynamics_.mass(i),
-                        held, s.x.col(i), s.v.col(i), x, v);
+      respond_solved<T>(dynamics_.grounds()[t], dynamics_.contact(), dynamics_.body_force().gravity,
+                        dynamics_.mass(i), held, s.x.col(i), s.v.col(i), x, v);
     }
     end.x.col(i) = x;
     end.v.col(i) = v;

@@ -11,16 +11,17 @@ Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite ove
   return SeriesWriter(std::move(file), solves);
 }
 
-Status SeriesWriter::write_header(bool contact, bool work) {
-  has_contact_ = contact;
+Status SeriesWriter::write_header(const Measures& first, bool work) {
+  has_contact_ = first.contact.has_value();
   has_work_ = work;
-  return file_.write(fmt::format("{}{}{}{}\n", series_csv_header, has_solves_ ? series_csv_solve_header : "",
-                                 contact ? series_csv_contact_header : "",
-                                 work ? series_csv_work_header : ""));
+  return file_.write(
+      fmt::format("{}{}{}{}{}\n", series_csv_header, has_solves_ ? series_csv_solve_header : "",
+                  has_contact_ ? series_csv_contact_header : "", work ? series_csv_work_header : "",
+                  first.drag_power ? series_csv_drag_header : ""));
 }
 
 Status SeriesWriter::finish() {
-  if (!has_row_) ASPIC_CHECK(write_header(false, false));
+  if (!has_row_) ASPIC_CHECK(write_header({}, false));
   return file_.commit();
 }
 
@@ -39,7 +40,12 @@ Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, con
   if (const auto bad = first_not_finite(m)) {
     return fail(ErrorCode::diverged, "{}: {} of step {} is not a finite number.", file_.path(), *bad, step);
   }
-  if (!has_row_) ASPIC_CHECK(write_header(m.contact.has_value(), work.has_value()));
+  if (!has_row_) ASPIC_CHECK(write_header(m, work.has_value()));
+  if (m.drag_power)
+    dissipated_ +=
+        0.5 * (drag_power_.value_or(*m.drag_power) + *m.drag_power) * (has_row_ ? time - last_time_ : 0.0);
+  drag_power_ = m.drag_power;
+  last_time_ = time;
   has_row_ = true;
   last_step_ = step;
   last_work_ = work;
@@ -55,6 +61,7 @@ Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, con
   }
   if (has_contact_) row += fmt::format(",{}", m.contact.value_or(0.0));
   if (has_work_) row += fmt::format(",{}", work.value_or(0.0));
+  if (drag_power_) row += fmt::format(",{}", dissipated_);
   return file_.write(row + "\n");
 }
 

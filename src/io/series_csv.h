@@ -25,6 +25,8 @@ inline constexpr std::string_view series_csv_solve_header =
 inline constexpr std::string_view series_csv_contact_header = ",contact";
 /// And in one with actuators: their work since the first row.
 inline constexpr std::string_view series_csv_work_header = ",actuator_work";
+/// And in one with drag: the energy that it has dissipated since the first row, by the trapezoidal rule.
+inline constexpr std::string_view series_csv_drag_header = ",dissipated_by_drag";
 
 /// Writes rows during a run; the file appears when finish() succeeds.
 class SeriesWriter {
@@ -47,8 +49,10 @@ class SeriesWriter {
  private:
   SeriesWriter(AtomicFile file, bool solves) : file_(std::move(file)), has_solves_(solves) {}
   AtomicFile file_;
-  Status write_header(bool contact, bool work);
+  Status write_header(const Measures& first, bool work);
   bool has_solves_ = false, has_contact_ = false, has_work_ = false;
+  std::optional<double> drag_power_;  // of the last row [W]; nothing without drag
+  double last_time_ = 0.0, dissipated_ = 0.0;
   SolveStatistics before_;  // as of the last row
   ActuatorWork work_;
   std::optional<Meter> meter_;  // from the first row on

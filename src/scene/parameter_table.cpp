@@ -43,6 +43,8 @@ Rows simulation_rows() {
           "Simulated time of a run that is given neither steps nor a duration."),
       row("simulation.gravity", "m/s²", within(1e4), FIELD(model.simulation.gravity),
           "Gravitational acceleration g."),
+      row("simulation.drag", "1/s", {0.0, 1000.0}, FIELD(model.simulation.drag),
+          "Linear drag γ: the force -γ·m·v on every particle and ball."),
       row("simulation.steps-per-frame", "", {1, 100000}, FIELD(model.simulation.steps_per_frame),
           "Time steps between two pictures in the window."),
       row("simulation.implicit.newton-iterations", "", {1, 1000},

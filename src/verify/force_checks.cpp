@@ -134,6 +134,26 @@ Result<Finding> falls(const Subject& subject) {
   return at_most(worst, 4 * steps * epsilon_double);
 }
 
+/// A free particle under drag alone, against v·exp(−γt). Each method's error is h^p of its order p.
+Result<Finding> drags(const Subject& subject) {
+  constexpr int steps = 1000;
+  constexpr double drag = 2.0;
+  double worst = 0.0;  // of error over bound
+  for (const Integrator integrator : all_integrators) {
+    Model model = loose_particles({{0, 0, 0}}, {{3, -1, 2}}, 0.37);
+    model.simulation.gravity = {0, 0, 0};
+    model.simulation.drag = drag;
+    model.simulation.integrator = integrator;
+    model.simulation.implicit.tolerance = 1e-15;
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps));
+    const double h = model.simulation.timestep, decay = drag * h * steps;
+    const double error = std::abs(end.velocity[0].x / (3 * std::exp(-decay)) - 1);
+    const double bound = decay * std::pow(drag * h, row_of(integrator).order) + 8 * steps * epsilon_double;
+    worst = std::max(worst, error / bound);
+  }
+  return Finding{worst <= 1.0, fmt::format("{:.3g} of the bound", worst)};
+}
+
 }  // namespace
 
 void add_force_checks(std::vector<Check>& checks) {
@@ -141,6 +161,8 @@ void add_force_checks(std::vector<Check>& checks) {
                     at_most_text(32 * 2000.0 * 4 * 6 * epsilon_double, "N"), true, false, undeformed});
   checks.push_back({"force/gravity", "0.37 kg fall as any mass does: v = g·t, every integrator",
                     at_most_text(4000 * epsilon_double), true, false, falls});
+  checks.push_back({"force/drag", "drag γ slows a particle as v·exp(−γt), every integrator",
+                    "γt·(γh)^p + 8nε of order p", true, false, drags});
   checks.push_back({"force/gradient",
                     "the force is minus the gradient of the elastic energy (shaken 4³ cube)",
                     "δ²/6·Σ3kr/L² + 2εE/δ, δ = 1e-5 m", true, false, gradient});

@@ -34,7 +34,9 @@ TEST_F(ActuatedOnTheDevice, HasTheReferencesBits) {
         integrator == Integrator::midpoint || integrator == Integrator::implicit_euler
             ? ContactModel::course
             : ContactModel::coulomb;
-    const Model model = test::build(test::actuated(integrator, contact));
+    ModelSettings settings = test::actuated(integrator, contact);
+    settings.simulation.drag = 0.4;
+    const Model model = test::build(settings);
     const std::uint64_t steps = row_of(integrator).traits.long_steps ? 12 : 120;
     const Inputs inputs = {.channels = {0.4}};
     const auto expected = reference(model);

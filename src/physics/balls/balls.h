@@ -17,6 +17,7 @@
 #include "physics/balls/law.h"
 #include "physics/balls/pairs.h"
 #include "physics/balls/phase.h"
+#include "physics/body_force.h"
 #include "physics/particle_view.h"
 #include "physics/phase.h"
 #include "physics/reductions.h"
@@ -47,7 +48,7 @@ class Balls {
  public:
   explicit Balls(const Model& model)
       : model_(&model),
-        gravity_(rounded<T>(model.simulation.gravity)),
+        body_force_(model),
         rules_{ContactConstants<T>(model), static_cast<T>(model.contact.ball_restitution),
                static_cast<T>(model.contact.ball_friction), model.contact.spin},
         particle_weight_(model.inverse_mass),
@@ -113,9 +114,9 @@ class Balls {
     Impulse<T> total() { return {linear.total(), turning.total()}; }
   };
 
-  /// What acts on a ball throughout a step from `start`: gravity, and the pulls as they are then [N].
+  /// What acts on a ball throughout a step from `start`: gravity, and drag and pulls as they are then [N].
   Vector<T> constant_force(const BallPhase<T>& start, Eigen::Index b) const {
-    Vector<T> f = bodies_[static_cast<std::size_t>(b)].mass * gravity_;
+    Vector<T> f = body_force_.at(bodies_[static_cast<std::size_t>(b)].mass, start.v.col(b));
     for (const PullConstants<T>& pull : pulls_) {
       if (pull.particle != b) continue;
       f += spring_force<T>(pull.spring, start.x.col(b), start.v.col(b), pull.anchor, Vector<T>::Zero());
@@ -209,7 +210,7 @@ class Balls {
   static T number(std::uint32_t count) { return static_cast<T>(count); }
 
   const Model* model_;
-  Vector<T> gravity_;
+  BodyForce<T> body_force_;
   BallRules<T> rules_;
   double largest_radius_ = 0.0;
   std::vector<BallBody<T>> bodies_;
