@@ -43,12 +43,22 @@ V random_vector(std::mt19937& random, double size) {
 struct Motion {
   const char* what;
   double drift, turn, strain, noise, together = 0.0;
+  double approach = 0.0;  ///< of all bodies towards the origin, from half a spacing farther apart
 };
 
 /// Moves each body of the model as one, strains it about its middle and shakes its particles.
 class Mover {
  public:
   Mover(const Model& model, unsigned seed) : model_(model), random_(seed) {}
+  /// Moves all bodies away from the origin [m].
+  void part(Field<float>& x, double by) const {
+    for (const Body& body : model_.bodies) {
+      auto own = x.middleCols(static_cast<Eigen::Index>(body.first_particle),
+                              static_cast<Eigen::Index>(body.particle_count));
+      const V middle = own.rowwise().mean();
+      if (middle.norm() > 0.1f) own.colwise() += V(static_cast<float>(by) * middle.normalized());
+    }
+  }
   void turn_round(const Motion& motion) {
     together_ = random_vector(random_, motion.together * spacing);
     ways_.clear();
@@ -89,7 +99,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Motion{"rest", 0.0, 0.0, 0.0, 1e-6}, Motion{"drift", 3e-3, 0.0, 0.0, 1e-4},
                     Motion{"turn", 1e-3, 5e-3, 0.0, 1e-4}, Motion{"strain", 1e-3, 1e-3, 2e-3, 1e-4},
                     Motion{"shake", 1e-3, 1e-3, 0.0, 5e-3}, Motion{"fast", 0.1, 0.05, 1e-3, 1e-3},
-                    Motion{"jumps", 0.3, 0.3, 0.0, 0.0}, Motion{"falling", 3e-3, 1e-3, 0.0, 1e-4, 0.3}),
+                    Motion{"jumps", 0.3, 0.3, 0.0, 0.0}, Motion{"falling", 3e-3, 1e-3, 0.0, 1e-4, 0.3},
+                    Motion{"approach", 0.0, 0.0, 0.0, 0.0, 0.0, 0.011}),
     [](const auto& each) { return each.param.what; });
 
 TEST_P(ContactSearches, FindTheContactsOfTheDefinition) {
@@ -109,6 +120,7 @@ TEST_P(ContactSearches, FindTheContactsOfTheDefinition) {
   std::mt19937 random(11);
   Field<float> x = field<float>(model.initial_position.list(0, model.particle_count()));
   Field<float> v = x;
+  if (GetParam().approach > 0.0) mover.part(x, 0.5 * spacing);
   std::size_t found = 0;
   for (std::uint64_t step = 0; step < 60; ++step) {
     if (step % 12 == 0) mover.turn_round(GetParam());
@@ -118,7 +130,10 @@ TEST_P(ContactSearches, FindTheContactsOfTheDefinition) {
     kept.begin_step(step, begin);
     definition.begin_step(step, begin);
     // Where the step begins, in a stage on its way, and back.
-    mover.move(x, GetParam());
+    if (GetParam().approach > 0.0)
+      mover.part(x, -GetParam().approach * spacing);
+    else
+      mover.move(x, GetParam());
     for (const Field<float>& place : {start, x, start}) {
       const std::vector<std::uint32_t> expected = bits(definition, place, v);
       ASSERT_EQ(bits(kept, place, v), expected) << "step " << step;
