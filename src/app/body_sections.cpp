@@ -301,6 +301,7 @@ void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
     }
     ImGui::PopID();
   }
+  edit(gui, scene, "simulation.drag");
   shown_springs(gui, scene);
 }
 

@@ -166,7 +166,6 @@ void simulation_section(Gui& gui, PlaybackSession& s, SceneControl& scene, const
          "Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
   pacer.set_speed(speed);
   edit(gui, scene, "simulation.gravity");
-  edit(gui, scene, "simulation.drag");
   // The cube that the assignments speak of; the rest of it, and other bodies, are under Bodies.
   if (!scene.scene().model.cubes.empty()) placed_cube(gui, scene, 0);
   if (row_of(scene.scene().model.simulation.integrator).kind() == MethodKind::newton) {

@@ -209,7 +209,11 @@ std::optional<EnergyRise> EnergyWatch::look(const State& state, const InputLog& 
     base_ = last_->total;
     base_step_ = state.step;
   }
-  if (!done.known || !(rise.excess > energy_share * last_->moving)) return std::nullopt;
+  // Explicit Euler gains ½·M·g²·h² in a step of free fall: more than the share in the first steps alone.
+  const double gained = length(model_.simulation.gravity) * model_.simulation.timestep;
+  const auto steps = static_cast<double>(std::min<std::uint64_t>(state.step - rise.since, 10));
+  const double allowed = energy_share * last_->moving + 0.5 * mass_ * gained * gained * steps;
+  if (!done.known || !(rise.excess > allowed)) return std::nullopt;
   return rise;
 }
 
