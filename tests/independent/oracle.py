@@ -76,6 +76,7 @@ class World:
         self.integrate = INTEGRATORS.get(simulation["integrator"])  # None: implicit-euler, which is solved
         self.h, self.duration = float(simulation["timestep"]), float(simulation["duration"])
         self.gravity = np.array(simulation["gravity"], dtype=float)
+        self.drag = float(simulation["drag"])
         self.model, self.epsilon = contact["model"], float(contact["epsilon"])
         self.terrains = [Terrain(t, contact, f"terrain[{i}]") for i, t in enumerate(scene["terrain"])]
         self.readings = readings
@@ -126,10 +127,14 @@ class World:
         if self.actuation:
             self.r = self.actuation.lengths(self.r0, self.h * (self.steps + c))
 
+    def own_force(self, v):
+        """Gravity and the drag of the medium on particles with these velocities."""
+        return self.m[:, None] * (self.gravity - self.drag * v)
+
     def acceleration(self, c, x, v):
         """At the time t + ch."""
         self.be_at(c)
-        f = self.m[:, None] * self.gravity + self.spring_force(x, v)
+        f = self.own_force(v) + self.spring_force(x, v)
         if self.touch:
             f = self.touch.forces(x, v, f)
         f = self.course_contact_force(x, v, f) if self.model == "course" else self.ground.reaction(f)

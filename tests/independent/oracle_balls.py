@@ -40,7 +40,7 @@ class Balls:
         w = self.world.w
         self.v0 = self.v.copy()
         fly = self.world.integrate or (lambda a, y, u, h: (y + h * (u + h * a(0, y, u)), u + h * a(0, y, u)))
-        self.x, self.v = fly(lambda c, y, u: np.broadcast_to(self.world.gravity, y.shape), self.x, self.v, self.world.h)
+        self.x, self.v = fly(lambda c, y, u: self.world.gravity - self.world.drag * self.v0, self.x, self.v, self.world.h)
         for terrain in self.world.terrains:
             if np.any(terrain.distance_and_normal(self.x)[0] < self.R + 2 * self.epsilon):
                 raise SceneError("A ball is near terrain, which this reading leaves out.")

@@ -18,7 +18,7 @@ class NotSolved(Exception):
 
 
 def force_jacobian(world, x0, v):
-    """-h df(x0 + h v, v)/dv of the springs, as an array (particles, 3, particles, 3)."""
+    """-h df(x0 + h v, v)/dv of springs and drag, as an array (particles, 3, particles, 3)."""
     h, count = world.h, len(x0)
     rate = v[world.a] - v[world.b]
     e = x0[world.a] - x0[world.b] + h * rate
@@ -38,6 +38,7 @@ def force_jacobian(world, x0, v):
     matrix = np.zeros((count, 3, count, 3))
     for p, q, sign in ((world.a, world.a, 1), (world.b, world.b, 1), (world.a, world.b, -1), (world.b, world.a, -1)):
         np.add.at(matrix, (p, slice(None), q), sign * block)
+    matrix.reshape(3 * count, 3 * count)[np.diag_indices(3 * count)] += np.repeat(h * world.drag * world.m, 3)
     return matrix
 
 
@@ -46,11 +47,11 @@ def backward_euler(world):
     x0, v0, h, count = world.x, world.v, world.h, len(world.x)
     held, touching = 0.0, None
     if world.model == "course":
-        f = world.m[:, None] * world.gravity + world.spring_force(x0, v0)
+        f = world.own_force(v0) + world.spring_force(x0, v0)
         held = world.course_contact_force(x0, v0, f) - f
 
     def evaluate(v):
-        f = world.m[:, None] * world.gravity + world.spring_force(x0 + h * v, v) + held
+        f = world.own_force(v) + world.spring_force(x0 + h * v, v) + held
         if touching:
             f = f + world.touch.react(touching, v)[0]
         free = v0 + (h * world.w)[:, None] * f
@@ -58,7 +59,7 @@ def backward_euler(world):
                                (free, np.broadcast_to(np.eye(3), (count, 3, 3)), None))
         return v - end, slope, held_by
 
-    start = world.m[:, None] * world.gravity + world.spring_force(x0, v0)
+    start = world.own_force(v0) + world.spring_force(x0, v0)
     if world.touch:
         touching = world.touch.ahead(x0, v0, start, 1)
     world.be_at(1)

@@ -10,7 +10,7 @@ YOUNGS_MODULUS_PER_STIFFNESS = 7.3125  # s * E / k of the infinite lattice
 
 SPRING = {"stiffness": 2000.0, "damping": 60.0}
 SIMULATION = {
-    "integrator": "explicit-euler", "timestep": 0.001, "duration": 4.0, "gravity": [0.0, -9.8, 0.0],
+    "integrator": "explicit-euler", "timestep": 0.001, "duration": 4.0, "gravity": [0.0, -9.8, 0.0], "drag": 0.0,
     "steps-per-frame": 8, "implicit": {"newton-iterations": 20, "cg-iterations": 200, "tolerance": None},
 }
 CONTACT = {

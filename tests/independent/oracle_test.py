@@ -54,7 +54,7 @@ SCENES = {
     "plane": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 1.9, 0.0]"}, "", 1),
     "tilted plane": ("cube-tilted-plane", FALLING | {"cube[0].position": "[1.0, 3.2, 0.0]"}, "", 1),
     "sphere": ("cube-sphere", FALLING | {"cube[0].position": "[0.4, 4.9, 0.2]"}, "", 1),
-    "bowl": ("cube-bowl", FALLING | {"cube[0].position": "[2.3, 5.5, 1.2]"}, "", 1),
+    "bowl": ("cube-bowl", FALLING | {"simulation.drag": 1.3, "cube[0].position": "[2.3, 5.5, 1.2]"}, "", 1),
     "light ground": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 2.1, 0.0]", "terrain[0].mass": 10.0}, "", 1),
     "pinned corner": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 1.8, 0.0]",
                                                "cube[0].pinned": '["top-left-front"]'}, "", 1),
@@ -64,7 +64,7 @@ SCENES = {
     "box of a material": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 1.5, 0.0]", "cube[0].particles": "[5, 2, 3]",
                                                    "cube[0].material": "{}"}, "", 1),
     # Two planes: what the first leaves is what the second acts on, in the forces and at the step's end.
-    "groove": ("cube-plane", FALLING | {"cube[0].position": "[0.2, 2.2, 0.0]", "terrain[0].normal": "[1.0, 1.0, 0.0]"},
+    "groove": ("cube-plane", FALLING | {"simulation.drag": 0.2, "cube[0].position": "[0.2, 2.2, 0.0]", "terrain[0].normal": "[1.0, 1.0, 0.0]"},
                SECOND_PLANE.format(normal="[-1.0, 1.2, 0.0]", mass=50.0), 1),
     "corner": ("cube-plane", {"cube[0].position": "[0.0, 1.13, 0.0]", "cube[0].velocity": "[1.0, 0.0, 0.3]",
                               "cube[0].rotation.axis": "[1.0, 0.3, 0.7]", "cube[0].rotation.angle": 2.0},
@@ -93,7 +93,7 @@ SCENES = {
                                            "cube[0].particles": "[3, 3, 3]", "cube[0].edge-length": 1.0},
                             SECOND_CUBE.format(n=2, edge=0.6, position="[0.3, 1.3, 0.1]", angle=5.0, velocity="[0.0, 0.0, 0.0]"), 1),
     # Balls on corners, on an edge and on a coarse face, one spinning; and on a cube that they tumble.
-    "balls": ("cube-plane", {"contact.bodies": "true", "contact.ball-restitution": 0.4, "cube[0].position": "[0.0, 0.05, 0.0]",
+    "balls": ("cube-plane", {"contact.bodies": "true", "contact.ball-restitution": 0.4, "cube[0].position": "[0.0, 0.05, 0.0]", "simulation.drag": 0.6,
                              "cube[0].particles": "[3, 2, 3]", "cube[0].edge-length": 2.0, "cube[0].rotation.axis": "[0.0, 1.0, 0.0]",
                              "cube[0].rotation.angle": 10.0},
               BALL.format(radius=0.2, mass=2.0, position="[-0.5, 0.9, 0.3]", velocity="[0.2, -1.0, 0.0]", spin="[0.0, 0.0, 9.0]")
