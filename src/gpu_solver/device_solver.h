@@ -155,7 +155,7 @@ struct DeviceMethod {
   /// gpu_bytes() without what all kinds share.
   std::uint64_t (*bytes)(const ModelCounts& counts, Integrator integrator);
   std::uint64_t particle_bytes;  ///< of its largest array, for each particle
-  bool cells;                    ///< it has kernels that take bodies of cells by blocks
+  bool cells;                    ///< kernels take cells by blocks; implicit Euler has no storage block free
 };
 
 /// Explicit methods, and scenes without particles: every stage one or two dispatches, no read-back inside a

@@ -1,6 +1,6 @@
 #pragma once
 // The table of force paths: how spring forces reach particles. Every path gives the same bits
-// (docs/architecture.md).
+// (docs/extending.md, "Add a force path").
 #include <cstdint>
 #include <span>
 #include <string>
