@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "model/steps.h"
-#include "run/common_clock.h"
 #include "playback/effect.h"
+#include "run/common_clock.h"
 
 namespace aspic {
 Result<std::unique_ptr<VariantRun>> VariantRun::create(gl::Context& context, const Scene& scene,
