@@ -149,9 +149,11 @@ Result<Finding> default_cubes(const Subject& subject, Integrator integrator) {
   ASPIC_TRY(auto end, run_reference(subject, model, Precision::single, steps_of(model, 10.0)));
   const double speed = measure(model, end).max_speed;
   const ContactSample in_contact = touching_in(model, end);
-  return Finding{
-      speed < 1e-4 && in_contact.count > 0 && in_contact.least >= 0.09 && in_contact.greatest <= 0.10,
-      fmt::format("{:.2g} m/s, {:.4f} … {:.4f} s", speed, in_contact.least, in_contact.greatest)};
+  // At 8 m a velocity below half a unit in the last place per step changes no position, so nothing damps it.
+  const double hidden = 0.5 * 8.0 * epsilon_single / settings.simulation.timestep;
+  return Finding{speed < std::max(1e-4, hidden) && in_contact.count > 0 && in_contact.least >= 0.09 &&
+                     in_contact.greatest <= 0.10,
+                 fmt::format("{:.2g} m/s, {:.4f} … {:.4f} s", speed, in_contact.least, in_contact.greatest)};
 }
 
 /// Eight cubes of edge 4 m on each other and on a plane, twenty times as stiff as by default, or as by
@@ -159,7 +161,7 @@ Result<Finding> default_cubes(const Subject& subject, Integrator integrator) {
 Result<double> lean_of_tower(const Subject& subject, double stiffness) {
   ModelSettings settings;
   settings.simulation.integrator = Integrator::symplectic_euler;
-  settings.simulation.timestep = 0.002;
+  settings.simulation.timestep = 0.0008;  // stable in contact with either stiffness
   settings.terrain.push_back({.geometry = {{"point", Vec3{}}}});
   for (int i = 0; i < 8; ++i) {
     CubeSettings& cube = settings.cubes.emplace_back();
@@ -202,7 +204,7 @@ void add_contact_impact_checks(std::vector<Check>& checks) {
   add_for_each_integrator(checks, "bodies/default",
                           "a default cube dropped on another, on a plane, 10 s later in single precision: "
                           "fastest particle, distances of contacts",
-                          "< 1e-04 m/s, 0.09 … 0.10 s", false, default_cubes);
+                          "< 1e-04 m/s or ½ulp(8 m)/h, 0.09 … 0.10 s", false, default_cubes);
   checks.push_back(
       {"bodies/tower",
        "eight cubes of 5³, 32 m high and pushed by 1 cm/s: lean of the top after 20 s with k = 40,000 "
