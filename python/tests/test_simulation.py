@@ -66,7 +66,7 @@ def test_energy_is_judged_by_what_inputs_can_add() -> None:
         sim.run(0.25)
         sim.velocities = sim.velocities + np.array([0.0, 30.0, 0.0])
         sim.run(0.25)
-    with pytest.warns(aspic.RunWarning, match="may not be stable"):
+    with pytest.warns(aspic.StepWarning, match="may not be stable"):
         sim = aspic.Simulation(aspic.load("worm", {"simulation.timestep": 0.005}), "cpu")
     with pytest.warns(aspic.RunWarning, match="J above that of step 0 plus the most that actuators"):
         sim.run(0.1)
