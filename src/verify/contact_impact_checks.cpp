@@ -14,13 +14,13 @@ namespace aspic::verify {
 ContactSample touching_in(const Model& model, const State& state) {
   using Contact = reference::BodyContact<double>;
   using Vector = physics::Vector<double>;
-  Contact contact(model);
+  Contact search(model);
   const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
   const Contact::Particles at = {physics::components(x.data()), physics::components(v.data()), 3};
   ContactSample found;
-  if (!contact.begin_step(state.step, at) || !contact.find(at)) return found;
-  const auto velocity = [&](std::uint32_t place) { return Vector(at.velocity(contact.particles()[place])); };
-  for (const auto& contact : contact.contacts()) {
+  if (!search.begin_step(state.step, at) || !search.find(at)) return found;
+  const auto velocity = [&](std::uint32_t place) { return Vector(at.velocity(search.particles()[place])); };
+  for (const auto& contact : search.contacts()) {
     const Vector r =
         physics::over_carriers<double>(contact, velocity) - physics::over_corners<double>(contact, velocity);
     const double way = model.simulation.timestep * physics::dot3<double>(contact.n, r);
