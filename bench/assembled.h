@@ -21,7 +21,7 @@ class AssembledSystem {
   reference::Trial<float> fall();
   reference::Trial<float> try_step(float lambda, bool onwards);
   static bool interrupted() { return false; }
-  static bool touches() { return false; }
+  static bool contacts() { return false; }
   reference::Trial<float> update_contacts(bool) { return evaluate(); }
 
   /// A·δ = r to ‖r‖ ≤ η·‖r₀‖.
