@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/inputs.h"
+#include "model/inputs.h"
 #include "model/integrator.h"
 #include "physics/balls/faces.h"
 #include "physics/balls/law.h"
@@ -20,6 +22,7 @@
 #include "physics/body_force.h"
 #include "physics/particle_view.h"
 #include "physics/phase.h"
+#include "physics/pulls/law.h"
 #include "physics/reductions.h"
 
 namespace aspic::physics {

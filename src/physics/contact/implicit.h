@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "model/model.h"
 #include "physics/contact/forces.h"
 #include "physics/diagonal_block.h"
 
