@@ -22,7 +22,7 @@ namespace aspic {
 /// What a series row holds of one state.
 struct Measures {
   double kinetic = 0.0;  ///< Σ ½ m v², of balls also ½ I ω² [J]
-  /// Of springs Σ ½ k (L − r)², r being that of the state's time, and of contact Σ ½ k (ρ − d)² [J].
+  /// Springs: Σ ½ k (L − r)² with r at the state's time; contact: Σ ½ k (ρ − d)² [J].
   double elastic = 0.0;
   std::optional<double> contact;     ///< of it, what these pushes hold [J]; nothing where bodies cannot touch
   double gravitational = 0.0;        ///< −Σ m g·x [J], zero at the origin

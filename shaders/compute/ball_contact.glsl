@@ -1,4 +1,4 @@
-// Contact of balls (docs/balls.md): src/cpu_reference/ball_contact.h in GLSL.
+// Contact of balls (docs/balls.md): src/physics/balls/law.h in GLSL.
 
 // xyz: t = s/|s|; w: the friction impulse along it that a normal impulse allows, for bodies that give way by
 // `compliance`. Zero without slip.

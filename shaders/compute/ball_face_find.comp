@@ -25,7 +25,7 @@ bool look(Looker ball, uint t, out ClosestPoint seen) {
   if (box_beyond(min(min(A, B), C), max(max(A, B), C), ball.far, ball.P)) return false;
   precise vec3 g = area_normal(A, B, C);
   if (!(dot3(g, g) > 0.0)) return false;
-  seen = sight_of(ball.P, A, B, C, g);
+  seen = closest_point(ball.P, A, B, C, g);
   return seen.L < ball.limit;
 }
 

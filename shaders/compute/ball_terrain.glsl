@@ -1,4 +1,4 @@
-// A ball and a terrain: src/cpu_reference/ball_contact.h in GLSL.
+// A ball and a terrain: src/physics/balls/law.h in GLSL.
 #include "compute/terrain.glsl"
 
 // At the step's start or end: AT_START, AT_END.

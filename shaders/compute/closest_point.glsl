@@ -1,4 +1,4 @@
-// What a point sees of a triangle, and where it touches it: src/cpu_reference/contact_geometry.h in single precision.
+// The closest point of a triangle and its contact with a point: src/physics/contact/geometry.h in single precision.
 
 // The nearest place A + b·(B − A) + c·(C − A): b, c, and 1 within the face or 0 on its rim.
 vec3 nearest_place(vec3 P, vec3 A, vec3 B, vec3 C) {
@@ -45,7 +45,7 @@ struct ClosestPoint {
   float z;     // e·N [m]
 };
 
-ClosestPoint sight_of(vec3 P, vec3 A, vec3 B, vec3 C, vec3 g) {
+ClosestPoint closest_point(vec3 P, vec3 A, vec3 B, vec3 C, vec3 g) {
   precise vec3 at = nearest_place(P, A, B, C);
   precise vec3 ab = B - A, ac = C - A;
   precise vec3 e = ((P - A) - at.x * ab) - at.y * ac;

@@ -1,6 +1,6 @@
 // The friction of a contact: the impulse that ends the slip of v₁, or as much of it as the cone allows. An includer has,
 // of particles, part(i), w·S in every component, and end_velocity(i), v₁.
-vec3 friction_of(ContactCandidates of, ContactRecord contact) {
+vec3 friction_of(CandidateGroup of, ContactRecord contact) {
   uvec4 t = contact.corner;
   precise float normal_force = contact.normal.w;
   precise vec3 own = over_carriers(of, part(of.carrier0), part(of.carrier1));

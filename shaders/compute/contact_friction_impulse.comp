@@ -1,4 +1,4 @@
-// Friction of the contacts of an encounter.
+// Friction of the contacts of a candidate group.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
@@ -19,7 +19,7 @@ vec3 end_velocity(uint i) { return values[i].xyz; }
 void main() {
   uint n = item_index();
   if (n >= contact_count || halted()) return;
-  ContactCandidates of = encounters[n];
+  CandidateGroup of = candidate_groups[n];
   uint first = first_record(n), end = first + records[first].corner.w;
   for (uint r = first; r < end; ++r) {
     ContactRecord contact = records[r];

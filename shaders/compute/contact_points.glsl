@@ -3,13 +3,13 @@
 #include "compute/contact_query.glsl"
 
 // Where pushes begin by now of bodies that overlapped in the initial state.
-float back_of(ContactCandidates of) {
+float back_of(CandidateGroup of) {
   precise float back = of.start_distance + of.spacing * body_contact_time;
   return back;
 }
 
 // The push of k·(ρ − d), were there no motion; of one where a step may end, in which there is motion already.
-float rest_of(ContactCandidates of, float d, float u) {
+float rest_of(CandidateGroup of, float d, float u) {
   precise float back = back_of(of);
   precise float reach = back < of.reach ? back : of.reach;
   precise float rest = of.contact_stiffness * (reach - d);
@@ -48,16 +48,16 @@ uint contact(Looker p, uint first) {
       fronts = in_front;
       first_side = triangle_of(p, k).w;
     }
-    if (round > 0u && !straight_in_front(seen, p.of.sight)) continue;
+    if (round > 0u && !straight_in_front(seen, p.of.range)) continue;
     precise vec4 gap;
-    if (closed ? closed_gap(seen, p.of.sight, depth, gap) : open_gap(seen, p.of.sight, gap))
+    if (closed ? closed_gap(seen, p.of.range, depth, gap) : open_gap(seen, p.of.range, gap))
       add(p, first + count++, k, gap, seen.place);
   }
   return count;
 }
 
 void find(uint n) {
-  ContactCandidates of = encounters[n];
+  CandidateGroup of = candidate_groups[n];
   precise vec3 start = over_carriers(of, start_place(of.carrier0), start_place(of.carrier1));
   precise vec3 place = over_carriers(of, stage_place(of.carrier0), stage_place(of.carrier1));
   precise vec3 normal = vec3(0.0);

@@ -7,7 +7,7 @@
 
 // A point that looks at triangles of one body.
 struct Looker {
-  ContactCandidates of;
+  CandidateGroup of;
   vec3 start;   // P at the start of the step
   vec3 place;   // P
   vec3 normal;  // N_P
@@ -40,7 +40,7 @@ bool may_contact(Looker p, uvec4 t) {
 bool beyond(Looker p, vec3 A, vec3 B, vec3 C) {
   precise vec3 below = min(min(A, B), C) - p.place, above = p.place - max(max(A, B), C);
   precise vec3 away = max(max(below, above), vec3(0.0));
-  precise float far = max(p.of.sight, p.of.eased_depth) + 0.01 * p.of.spacing;
+  precise float far = max(p.of.range, p.of.eased_depth) + 0.01 * p.of.spacing;
   precise float limit = far * far;
   return dot3(away, away) > limit;
 }
@@ -55,7 +55,7 @@ bool look(Looker p, uint k, uint side, out ClosestPoint seen) {
   precise vec3 g = area_normal(A, B, C);
   if (!(dot3(g, g) > 0.0)) return false;
   if ((p.of.flags & CONTACT_OPPOSING) != 0u && !(dot3(p.normal, g) < 0.0)) return false;
-  seen = sight_of(p.place, A, B, C, g);
+  seen = closest_point(p.place, A, B, C, g);
   return true;
 }
 
@@ -68,7 +68,7 @@ uint nearest_of(Looker p, uint side, inout uint fronts, out ClosestPoint best_se
   for (uint k = 0u; k < p.of.near_count; ++k) {
     if (!look(p, k, side, seen)) continue;
     if (seen.L < least) least = seen.L;
-    if (straight_in_front(seen, p.of.sight)) fronts |= 1u << triangle_of(p, k).w;
+    if (straight_in_front(seen, p.of.range)) fronts |= 1u << triangle_of(p, k).w;
   }
   if (!(least < NOTHING_NEAR)) return NO_TRIANGLE;
   precise float far = least + p.of.tie, straight = -1.0, nearest = least;

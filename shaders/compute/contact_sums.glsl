@@ -12,9 +12,9 @@ layout(std430, binding = BINDING_CONTACT_WORDS) restrict readonly buffer Words {
     for (uint e = words[(first) + n_e], r = first_record(e), end = r + records[r].corner.w; r < end; ++r) \
       if (COUNTS(r))
 
-// A particle's weight among the carriers of an encounter's point.
+// A particle's weight among the carriers of a candidate group's point.
 float weight_of_carrier(uint e, uint i) {
-  return encounters[e].carrier0 == i ? encounters[e].carrier_weight0 : encounters[e].carrier_weight1;
+  return candidate_groups[e].carrier0 == i ? candidate_groups[e].carrier_weight0 : candidate_groups[e].carrier_weight1;
 }
 
 bool is_corner(uint r, uint i) { return any(equal(records[r].corner.xyz, uvec3(i))); }

@@ -1,4 +1,4 @@
-// The Coulomb contact rule: src/cpu_reference/coulomb.h in GLSL. Expects what terrain.glsl has before it.
+// The Coulomb contact rule: src/physics/terrain/coulomb.h in GLSL. Expects what terrain.glsl has before it.
 
 // |g|h: speed gained by a step of free fall [m/s].
 float fall_speed() {

@@ -10,7 +10,7 @@
 #include "compute/terrain.glsl"
 
 #ifdef ASPIC_BODY_CONTACT
-layout(location = LOCATION_CONTACT_COUNT) uniform uint contact_count;  // encounters
+layout(location = LOCATION_CONTACT_COUNT) uniform uint contact_count;  // candidate groups
 #endif
 
 // Gravity, springs and pulls.

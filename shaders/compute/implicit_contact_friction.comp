@@ -1,4 +1,4 @@
-// Implicit Euler: the friction that contacts of an encounter begin with.
+// Implicit Euler: the friction that contacts of a candidate group begin with.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit_control.glsl"
@@ -13,7 +13,7 @@ vec3 end_velocity(uint i) { return search[i].xyz; }
 void main() {
   uint n = item_index();
   if (n >= contact_count || enter() != PHASE_CONTACT) return;
-  ContactCandidates of = encounters[n];
+  CandidateGroup of = candidate_groups[n];
   uint first = first_record(n), end = first + records[first].corner.w;
   for (uint r = first; r < end; ++r) {
     ContactRecord contact = records[r];

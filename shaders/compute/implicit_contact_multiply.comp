@@ -1,4 +1,4 @@
-// Implicit Euler, conjugate gradients: the matrix of the contacts of an encounter times the direction.
+// Implicit Euler, conjugate gradients: the matrix of the contacts of a candidate group times the direction.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit_control.glsl"
@@ -8,7 +8,7 @@ layout(std430, binding = BINDING_SEARCH) restrict readonly buffer Search { vec4 
 
 vec3 direction(uint i) { return prescribing ? search[CONTACT_AT(CONTACT_PRESCRIBED, i)].xyz : search[i].xyz; }
 
-void multiply(ContactCandidates of, uint record) {
+void multiply(CandidateGroup of, uint record) {
   ContactRecord contact = records[record];
   uvec4 t = contact.corner;
   precise vec3 own = over_carriers(of, direction(of.carrier0), direction(of.carrier1));
@@ -25,6 +25,6 @@ void main() {
   uint n = item_index();
   if (n >= contact_count || enter() != PHASE_CG || solve.in_contact == 0u) return;
   uint first = first_record(n), end = first + records[first].corner.w;
-  ContactCandidates of = encounters[n];
+  CandidateGroup of = candidate_groups[n];
   for (uint r = first; r < end; ++r) multiply(of, r);
 }

@@ -1,5 +1,5 @@
-// Implicit Euler: what the contacts of an encounter do at the trial velocities, and their part of the matrix:
-// src/cpu_reference/implicit_contact.h.
+// Implicit Euler: what the contacts of a candidate group do at the trial velocities, and their part of the matrix:
+// src/physics/contact/implicit.h.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit_control.glsl"
@@ -9,7 +9,7 @@ layout(std430, binding = BINDING_TRIAL) restrict readonly buffer Trial { vec4 tr
 
 vec3 velocity(uint i) { return trial[i].xyz; }
 
-bool react(ContactCandidates of, uint record) {
+bool react(CandidateGroup of, uint record) {
   ContactRecord contact = records[record];
   uvec4 t = contact.corner;
   precise vec3 own = over_carriers(of, velocity(of.carrier0), velocity(of.carrier1));
@@ -46,7 +46,7 @@ void main() {
   uint phase = enter();
   if (n >= contact_count || (phase != PHASE_CONTACT && phase != PHASE_EVALUATE) || solve.in_contact == 0u) return;
   uint first = first_record(n), end = first + records[first].corner.w;
-  ContactCandidates of = encounters[n];
+  CandidateGroup of = candidate_groups[n];
   bool acts = false;
   for (uint r = first; r < end; ++r) acts = react(of, r) || acts;
   if (acts) atomicMax(solve.ground, 1u);

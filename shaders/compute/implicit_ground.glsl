@@ -1,4 +1,4 @@
-// The ground inside the equation of implicit Euler: src/cpu_reference/implicit_ground.h in GLSL. Expects terrain.glsl.
+// The ground inside the equation of implicit Euler: src/physics/terrain/implicit.h in GLSL. Expects terrain.glsl.
 
 // P at one velocity, and the part of its derivative that the linear system takes.
 struct Reaction {

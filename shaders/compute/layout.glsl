@@ -51,7 +51,7 @@
 #define CONTACT_VECTORS 7u
 #define CONTACT_AT(which, i) (((which) + 1u) * particle_count + (i))
 
-// What the ground leaves a particle: Freedom in src/cpu_reference/implicit_ground.h.
+// What the ground leaves a particle: Freedom in src/physics/terrain/implicit.h.
 #define FREE_ALL 0.0
 #define FREE_PLANE 1.0
 #define FREE_LINE 2.0
@@ -83,7 +83,7 @@
 #define LOCATION_BALL_PARITY 2  // explicit methods: slot of the balls' state at the start of the step
 #define LOCATION_BALL_PHASE 3   // BALL_PHASE_…
 #define LOCATION_BALL_KIND 4    // KIND_… of the candidates that a dispatch looks at
-#define LOCATION_CONTACT_COUNT 7  // encounters, or particles, of a dispatch
+#define LOCATION_CONTACT_COUNT 7  // candidate groups, or particles, of a dispatch
 #define LOCATION_CONTACT_NUMBER 8  // seconds since the initial state, or the square of a way [m²]
 
 // Of the items of a pass, each COUNTED_ITEMS-th and the last count themselves, so that a device which drops some is found out.
@@ -221,12 +221,12 @@ struct BallFaceCount {
 // A first contact and one of each other side of a body: at most so many sides may a body have.
 #define CONTACT_SIDES 6u
 #define CONTACT_RECORDS 6u
-// Flags of an encounter.
+// Flags of a candidate group.
 #define CONTACT_CLOSED 1u    // the triangles' body has an inside
 #define CONTACT_OPPOSING 2u  // only faces that turn to the point count
 
 // A point and triangles of one body near it, in src/gpu_solver/contact_lists.h.
-struct ContactCandidates {
+struct CandidateGroup {
   uint carrier0, carrier1;  // particles that carry the point, twice the same of a particle's own
   uint flags;               // CONTACT_…
   uint near_first;          // triangles near it, in the words
@@ -243,7 +243,7 @@ struct ContactCandidates {
   float eased_depth;      // the same while bodies are eased apart [m]
   float margin;           // by which boxes of candidates are widened [m]
   float tie;              // distances that differ by less are equal [m]
-  float sight;            // up to where contacts are found [m]: ρ, or more in implicit Euler
+  float range;            // up to where contacts are found [m]: ρ, or more in implicit Euler
   float contact_friction;   // μ
 };
 
@@ -251,7 +251,7 @@ struct ContactCandidates {
 struct ContactRecord {
   vec4 normal;   // n; w: normal force f [N]
   vec4 friction;  // on the point [N]; w: normal force without motion [N]
-  uvec4 corner;  // particles; w: contacts of the encounter, in its first record
+  uvec4 corner;  // particles; w: contacts of the candidate group, in its first record
   vec4 share;    // weights of the corners; w: unused
   vec4 answer;   // implicit Euler, at the trial: force on the point [N], then its matrix times a direction; w: along n [kg]
   vec4 turn;     // unit vector of a friction that slides; w: stiffness across n [kg]
@@ -260,9 +260,9 @@ struct ContactRecord {
 // A particle that contacts may name: as a carrier of points, and as a corner.
 struct ContactParticle {
   uint listed;       // which
-  uint own_first;    // encounters of its points, in the words
+  uint own_first;    // candidate groups of its points, in the words
   uint own_count;
-  uint visit_first;  // encounters with triangles at it, likewise
+  uint visit_first;  // candidate groups with triangles at it, likewise
   uint visit_count;
   uint contact_padding0, contact_padding1, contact_padding2;
 };

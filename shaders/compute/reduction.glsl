@@ -1,4 +1,4 @@
-// Reductions as trees over fixed blocks of 256 elements (src/cpu_reference/reductions.h): each work group reduces its
+// Reductions as trees over fixed blocks of 256 elements (src/physics/reductions.h): each work group reduces its
 // block, the last group to finish reduces the blocks' results. x takes the largest, y, z and w the sums; elements that
 // are missing count as zero. Every invocation of the group must call these.
 shared vec4 reduction[REDUCTION_BLOCK];

@@ -35,9 +35,9 @@
 #define BINDING_CONTACT_PLACES 3      // uvec4[]: bits of where particles were when lists were made; w: which particle
 #define BINDING_CONTACT_TRIANGLES 3   // uvec4[]: corners; w: side
 #define BINDING_CONTACT_VALUES 3      // vec4[particles]: v₁ [m/s]; w: S [N]
-#define BINDING_CONTACT_ENCOUNTERS 4  // ContactCandidates[]
-#define BINDING_CONTACT_WORDS 5       // uint[]: lists of triangles and of encounters
-#define BINDING_CONTACT_RECORDS 7     // ContactRecord[CONTACT_RECORDS · encounters]
+#define BINDING_CANDIDATE_GROUPS 4  // CandidateGroup[]
+#define BINDING_CONTACT_WORDS 5       // uint[]: lists of triangles and of candidate groups
+#define BINDING_CONTACT_RECORDS 7     // ContactRecord[CONTACT_RECORDS · candidate groups]
 // Of the kernels that prepare a picture; springs and balls as above.
 #define BINDING_PARTICLES 0   // Particle[]
 #define BINDING_FAN_START 1   // uint[surface vertices + 1]: where each vertex's fan begins

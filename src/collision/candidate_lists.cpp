@@ -11,8 +11,8 @@ double component(const Vec3& v, std::size_t axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/// Boxes halved again and again, so that finding all pairs that meet takes time in proportion to them, but
-/// for a logarithm, however boxes lie and whatever their sizes.
+/// A bounding volume hierarchy: finds all overlapping pairs in time proportional to their number times a
+/// logarithm.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Bounds>& boxes) : boxes_(boxes), order_(boxes.size()) {
@@ -20,17 +20,17 @@ class BoxTree {
     nodes_.reserve(2 * boxes.size());
     if (!boxes.empty()) split(0, boxes.size());
   }
-  /// Calls use(n) for those that meet a box widened by `margin`.
+  /// Calls use(n) for the boxes that overlap a box widened by `margin`.
   template <class Use>
   void meeting(const Bounds& box, double margin, const Use& use) const {
     if (!nodes_.empty()) meeting(0, 0, boxes_.size(), box, margin, use);
   }
 
  private:
-  static constexpr std::size_t leaf = 4;  // boxes of a part that is not halved
+  static constexpr std::size_t leaf = 4;  // most boxes of a leaf
   struct Node {
     Bounds box;
-    std::size_t second = 0;  // node of the second half; that of the first comes next
+    std::size_t second = 0;  // the second child; the first one follows the node
   };
   static std::size_t half(std::size_t first, std::size_t end) { return first + (end - first) / 2; }
 
@@ -74,7 +74,7 @@ class BoxTree {
 
   const std::vector<Bounds>& boxes_;
   std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;  // a part before its halves
+  std::vector<Node> nodes_;  // a parent before its children
 };
 
 double extent(const Bounds& box) {
@@ -83,7 +83,7 @@ double extent(const Bounds& box) {
   return most;
 }
 
-/// No pair of the body has a larger margin [m].
+/// Largest margin of any pair with the body [m].
 double margin_of(const ContactSettings& contact, const ContactBody& body) {
   ContactBody open = body;
   open.closed = false;
@@ -105,7 +105,7 @@ void Bounds::add(const Vec3& place) {
 }
 
 bool Bounds::holds(const Vec3& place, double margin) const {
-  // All at once: which comparison fails first is anyone's guess, a processor's too.
+  // All comparisons, without branches: which of them fails first cannot be predicted.
   bool all = true;
   for (std::size_t c = 0; c < 3; ++c) {
     const double x = component(place, c);
@@ -186,14 +186,14 @@ void TriangleGrid::near(const Vec3& place, double margin, std::vector<std::uint3
 }
 
 CandidateLists::CandidateLists(const Model& model, const ContactSurfaces& surfaces, double slack,
-                               bool meetings)
+                               bool body_pairs)
     : surfaces_(surfaces),
       contact_(model.contact),
       slack_(std::numeric_limits<double>::infinity()),
-      with_meetings_(meetings) {
+      with_body_pairs_(body_pairs) {
   for (const ContactBody& body : surfaces.bodies) slack_ = std::min(slack_, slack * body.spacing);
   boxes_.resize(surfaces.triangles.size());
-  // With more, bodies have more others about them that they never meet.
+  // A larger value would list neighbors that never come into contact.
   double smallest = std::numeric_limits<double>::infinity();
   for (const ContactBody& body : surfaces.bodies) {
     Bounds box;
@@ -201,7 +201,7 @@ CandidateLists::CandidateLists(const Model& model, const ContactSurfaces& surfac
       box.add(model.initial_position[surfaces.points[p].carrier[0]]);
     smallest = std::min(smallest, extent(box));
   }
-  far_slack_ = meetings ? std::clamp(0.5 * smallest, slack_, 4.0 * slack_) : slack_;
+  far_slack_ = body_pairs ? std::clamp(0.5 * smallest, slack_, 4.0 * slack_) : slack_;
   if (!contact_.self) return;
   for (const SurfacePoint& point : surfaces.points) {
     const auto at = [&](std::size_t n) { return model.initial_position[point.carrier[n]]; };
@@ -232,16 +232,16 @@ void CandidateLists::build() {
     }
   }
   // Rounding of places in single precision, many times over.
-  pad_ = 0.0;
+  rounding_ = 0.0;
   for (std::size_t c = 0; c < 3; ++c)
-    pad_ = std::max({pad_, 1e-6 * std::abs(all.min[c]), 1e-6 * std::abs(all.max[c])});
+    rounding_ = std::max({rounding_, 1e-6 * std::abs(all.min[c]), 1e-6 * std::abs(all.max[c])});
 
-  find_partners(around);
-  if (with_meetings_) find_meetings(around);
-  encounters_.clear();
+  find_neighbors(around);
+  if (with_body_pairs_) find_body_pairs(around);
+  candidate_groups_.clear();
   triangles_.clear();
   std::uint32_t gridded = std::numeric_limits<std::uint32_t>::max();
-  for (const auto& [faces, points] : partners_) {
+  for (const auto& [faces, points] : neighbors_) {
     if (faces != gridded) {
       const ContactBody& body = surfaces_.bodies[faces];
       for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
@@ -251,9 +251,10 @@ void CandidateLists::build() {
       grid_.build(std::span(boxes_).subspan(body.first_triangle, body.triangle_count));
       gridded = faces;
     }
-    meet(points, faces);
+    add_groups(points, faces);
   }
-  std::ranges::sort(encounters_, {}, [](const PointCandidates& e) { return std::pair(e.point, e.body); });
+  std::ranges::sort(candidate_groups_, {},
+                    [](const CandidateGroup& e) { return std::pair(e.point, e.body); });
 }
 
 double CandidateLists::most_margin() const {
@@ -263,31 +264,31 @@ double CandidateLists::most_margin() const {
 }
 
 /// Pairs of bodies whose boxes are near, by body of triangles.
-void CandidateLists::find_partners(const std::vector<Bounds>& around) {
-  partners_.clear();
-  for (std::uint32_t a = 0; contact_.self && a < around.size(); ++a) partners_.push_back({a, a});
+void CandidateLists::find_neighbors(const std::vector<Bounds>& around) {
+  neighbors_.clear();
+  for (std::uint32_t a = 0; contact_.self && a < around.size(); ++a) neighbors_.push_back({a, a});
   if (contact_.bodies) {
     const BoxTree tree(around);
-    const double widest = most_margin() + far_slack_ + pad_;
+    const double widest = most_margin() + far_slack_ + rounding_;
     for (std::uint32_t a = 0; a < around.size(); ++a) {
       tree.meeting(around[a], widest, [&](std::uint32_t b) {
         if (b <= a) return;
-        const double margin =
-            margin_between(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false) + far_slack_ + pad_;
+        const double margin = margin_between(contact_, surfaces_.bodies[a], surfaces_.bodies[b], false) +
+                              far_slack_ + rounding_;
         if (!around[a].meets(around[b], margin)) return;
-        partners_.push_back({a, b});
-        partners_.push_back({b, a});
+        neighbors_.push_back({a, b});
+        neighbors_.push_back({b, a});
       });
     }
   }
-  std::ranges::sort(partners_);
+  std::ranges::sort(neighbors_);
 }
 
-/// Of partners, the particles that may carry a point, or be a corner, of what becomes a candidate before any
-/// particle has moved further than it may. All others are further apart than that.
-void CandidateLists::find_meetings(const std::vector<Bounds>& around) {
-  meetings_.clear();
-  met_.clear();
+/// Of neighboring bodies, the particles that may carry a point or be a corner of a candidate while the lists
+/// hold. All other particles are farther apart.
+void CandidateLists::find_body_pairs(const std::vector<Bounds>& around) {
+  body_pairs_.clear();
+  pair_points_.clear();
   const auto longest = [&](const ContactBody& body) {
     double most = 0.0;
     for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
@@ -297,32 +298,32 @@ void CandidateLists::find_meetings(const std::vector<Bounds>& around) {
     }
     return most;
   };
-  std::vector<double> edges(surfaces_.bodies.size(), -1.0);  // [m], once they are known
+  std::vector<double> edges(surfaces_.bodies.size(), -1.0);  // [m], computed on demand
   const auto add = [&](std::uint32_t of, std::uint32_t other) {
     const ContactBody& body = surfaces_.bodies[of];
     if (edges[of] < 0.0) edges[of] = longest(body);
-    // Points on edges, and triangles, are no further from their particles than an edge, and these no further
-    // from their neighbours, of which their normals are made.
-    const double margin = margin_between(contact_, body, surfaces_.bodies[other], of == other) + pad_ +
+    // Points on edges and triangles are at most one edge from their particles, and these at most one edge
+    // from the neighbors that their normals depend on.
+    const double margin = margin_between(contact_, body, surfaces_.bodies[other], of == other) + rounding_ +
                           std::max(far_slack_ + edges[of], slack_ + 2.0 * edges[of]);
     for (std::uint32_t p = body.first_point; p < body.first_point + body.surface_particles; ++p)
-      if (around[other].holds(built_[p], margin)) met_.push_back(p);
+      if (around[other].holds(built_[p], margin)) pair_points_.push_back(p);
   };
-  const auto end = [&] { return static_cast<std::uint32_t>(met_.size()); };
-  for (const auto& [a, b] : partners_) {
+  const auto end = [&] { return static_cast<std::uint32_t>(pair_points_.size()); };
+  for (const auto& [a, b] : neighbors_) {
     if (b < a) continue;
     const std::uint32_t first = end();
     add(a, b);
     const std::uint32_t second = a == b ? first : end();
     if (a != b) add(b, a);
-    meetings_.push_back({first, second, end()});
+    body_pairs_.push_back({first, second, end()});
   }
 }
 
 /// Points of body a near the triangles of body b, which are in the grid.
-void CandidateLists::meet(std::uint32_t a, std::uint32_t b) {
+void CandidateLists::add_groups(std::uint32_t a, std::uint32_t b) {
   const ContactBody &points = surfaces_.bodies[a], &faces = surfaces_.bodies[b];
-  const double margin = contact_pair(contact_, points, faces, a == b).margin + slack_ + pad_;
+  const double margin = contact_pair(contact_, points, faces, a == b).margin + slack_ + rounding_;
   Bounds box;
   for (std::uint32_t p = 0; p < faces.surface_particles; ++p) box.add(built_[faces.first_point + p]);
   for (std::uint32_t p = points.first_point; p < points.first_point + points.point_count; ++p) {
@@ -333,13 +334,13 @@ void CandidateLists::meet(std::uint32_t a, std::uint32_t b) {
     for (std::uint32_t& t : found_) t += faces.first_triangle;
     if (a == b) drop_neighbours(p, found_);
     if (found_.empty()) continue;
-    encounters_.push_back(
+    candidate_groups_.push_back(
         {p, b, static_cast<std::uint32_t>(triangles_.size()), static_cast<std::uint32_t>(found_.size())});
     triangles_.insert(triangles_.end(), found_.begin(), found_.end());
   }
 }
 
-/// Within one body, only what is far apart at rest touches.
+/// Self-contact: leaves only triangles that are far apart at rest.
 void CandidateLists::drop_neighbours(std::uint32_t point, std::vector<std::uint32_t>& triangles) const {
   const auto spacing_at = [&](std::uint32_t p) {
     const auto after = std::ranges::upper_bound(surfaces_.bodies, p, {}, &ContactBody::first_point);
@@ -354,9 +355,9 @@ void CandidateLists::drop_neighbours(std::uint32_t point, std::vector<std::uint3
 
 std::uint64_t CandidateLists::bytes() const {
   return (rest_.capacity() + built_.capacity()) * sizeof(Vec3) + boxes_.capacity() * sizeof(Bounds) +
-         encounters_.capacity() * sizeof(PointCandidates) +
-         (triangles_.capacity() + found_.capacity() + met_.capacity()) * sizeof(std::uint32_t) +
-         meetings_.capacity() * sizeof(Meeting) + grid_.bytes();
+         candidate_groups_.capacity() * sizeof(CandidateGroup) +
+         (triangles_.capacity() + found_.capacity() + pair_points_.capacity()) * sizeof(std::uint32_t) +
+         body_pairs_.capacity() * sizeof(BodyPair) + grid_.bytes();
 }
 
 }  // namespace aspic::collision

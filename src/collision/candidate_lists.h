@@ -1,8 +1,7 @@
 #pragma once
-// Which triangles are near which points of which bodies, for several steps at once: every pair that may
-// become a candidate (docs/contact.md) before something has moved by half of a slack, or before bodies have
-// moved by a slack against each other where they meet. In double precision and generous: nothing in a state
-// depends on it.
+// Candidate lists for several steps: every point and triangle that may become candidates (docs/contact.md)
+// before a particle has moved by half of a slack, or before particles of neighboring bodies have moved by a
+// slack relative to each other. Double precision and wide margins: no state depends on the lists.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,35 +15,36 @@
 
 namespace aspic::collision {
 
-/// Triangles of one body near a point.
-struct PointCandidates {
+/// The triangles of one body near a point.
+struct CandidateGroup {
   std::uint32_t point, body;   ///< numbers in ContactSurfaces; the body is the triangles'
   std::uint32_t first, count;  ///< in a list of triangles
 };
 
-/// Where two bodies may come near each other: particles of one from `first` on, of the other from `second`
-/// on, which are the same where a body meets itself.
-struct Meeting {
+/// Points of two neighboring bodies: of one from `first` on, of the other from `second` on. The same points
+/// for a body and itself.
+struct BodyPair {
   std::uint32_t first, second, end;  ///< in a list of points
 };
 
-/// Around places [m]; around none at first.
+/// An axis-aligned box around places [m]; empty at first.
 struct Bounds {
   static constexpr double far = std::numeric_limits<double>::infinity();
   std::array<double, 3> min = {far, far, far}, max = {-far, -far, -far};
 
   void add(const Vec3& place);
-  /// Whether the box, widened by `margin`, holds the place, or meets another.
+  /// Whether the box, widened by `margin`, holds the place, or overlaps another.
   bool holds(const Vec3& place, double margin) const;
   bool meets(const Bounds& other, double margin) const;
 };
 
-/// The triangles of a body in cubic cells, by the centres of their boxes.
+/// A uniform grid over the centers of the boxes of a body's triangles.
 class TriangleGrid {
  public:
-  /// `boxes`: of the body's triangles.
+  /// From the boxes of the body's triangles.
   void build(std::span<const Bounds> boxes);
-  /// Appends those whose boxes, widened by `margin`, hold the place; relative to the body's first, ascending.
+  /// Appends the triangles whose boxes, widened by `margin`, hold the place: numbers relative to the body's
+  /// first, ascending.
   void near(const Vec3& place, double margin, std::vector<std::uint32_t>& found) const;
   std::uint64_t bytes() const {
     return (begin_.capacity() + triangles_.capacity()) * sizeof(std::uint32_t) +
@@ -64,61 +64,60 @@ class TriangleGrid {
 
 class CandidateLists {
  public:
-  /// `surfaces` must outlive it. `slack`: in spacings; half of it is how far particles may move until the
-  /// lists have to be made again. With `meetings` lists last until particles have moved by more, or those of
-  /// a meeting have moved against each other by the slack.
+  /// `surfaces` must outlive it. The lists hold until a particle has moved by half of `slack` [spacings].
+  /// With `body_pairs` they hold until one has moved farther, or particles of a pair have moved by `slack`
+  /// relative to each other.
   CandidateLists(const Model& model, const ContactSurfaces& surfaces, double slack = 0.25,
-                 bool meetings = false);
+                 bool body_pairs = false);
 
-  /// Makes the lists for particles of points at these places, by point; of those on edges nothing is asked.
+  /// Makes the lists for these places, by point; those of points on edges are not read.
   void make(std::span<const Vec3> places);
   /// The largest margin of any pair of bodies [m].
   double most_margin() const;
-  /// How far a particle may be from where it was when the lists were made [m].
-  double leeway() const { return 0.5 * far_slack_; }
-  /// With meetings: how far, in each direction, particles of two sides of one may have gone against each
-  /// other since then [m].
+  /// Largest displacement of a particle since the lists were made with which they hold [m].
+  double displacement_limit() const { return 0.5 * far_slack_; }
+  /// With body pairs: largest displacement of particles of a pair relative to each other [m].
   double slack() const { return slack_; }
-  std::span<const Meeting> meetings() const { return meetings_; }
-  /// Of triangles and of points; ascending. Those of bodies whose boxes were further apart are in no list.
-  std::span<const std::array<std::uint32_t, 2>> partners() const { return partners_; }
-  /// Points of particles, which meetings name.
-  std::span<const std::uint32_t> met() const { return met_; }
-  /// More than rounding of places in single precision can amount to [m].
-  double pad() const { return pad_; }
+  std::span<const BodyPair> body_pairs() const { return body_pairs_; }
+  /// Neighboring bodies, those of triangles and of points, ascending. Other pairs have no candidates.
+  std::span<const std::array<std::uint32_t, 2>> neighbors() const { return neighbors_; }
+  /// The points that body pairs refer to.
+  std::span<const std::uint32_t> pair_points() const { return pair_points_; }
+  /// Upper bound of the rounding error of a place in single precision [m].
+  double rounding() const { return rounding_; }
   /// Ascending by point, then by body.
-  std::span<const PointCandidates> encounters() const { return encounters_; }
-  /// Of one of them, ascending.
-  std::span<const std::uint32_t> triangles(const PointCandidates& of) const {
+  std::span<const CandidateGroup> candidate_groups() const { return candidate_groups_; }
+  /// The triangles of a group, ascending.
+  std::span<const std::uint32_t> triangles(const CandidateGroup& of) const {
     return std::span(triangles_).subspan(of.first, of.count);
   }
   std::uint64_t bytes() const;
 
  private:
   void build();
-  /// Points of a triangle's corners.
+  /// The points of a triangle's corners.
   std::span<const std::uint32_t, 3> corners(std::uint32_t triangle) const {
     return std::span(surfaces_.faces[triangle]).first<3>();
   }
-  void find_partners(const std::vector<Bounds>& around);
-  void find_meetings(const std::vector<Bounds>& around);
-  void meet(std::uint32_t a, std::uint32_t b);
+  void find_neighbors(const std::vector<Bounds>& around);
+  void find_body_pairs(const std::vector<Bounds>& around);
+  void add_groups(std::uint32_t a, std::uint32_t b);
   Vec3 place_of(std::uint32_t point, std::span<const Vec3> places) const;
   void drop_neighbours(std::uint32_t point, std::vector<std::uint32_t>& triangles) const;
 
   const ContactSurfaces& surfaces_;
   ContactSettings contact_;
-  std::vector<Vec3> rest_;                            // places at rest, by point; none without self contact
-  double slack_ = 0.0, far_slack_ = 0.0, pad_ = 0.0;  // [m]
-  bool with_meetings_ = false;
-  std::vector<Vec3> built_;                             // places at which the lists were made
-  std::vector<Bounds> boxes_;                           // of triangles, then
-  std::vector<std::array<std::uint32_t, 2>> partners_;  // body of triangles, body of points
+  std::vector<Vec3> rest_;  // places at rest, by point; empty without self-contact
+  double slack_ = 0.0, far_slack_ = 0.0, rounding_ = 0.0;  // [m]
+  bool with_body_pairs_ = false;
+  std::vector<Vec3> built_;                              // places at which the lists were made
+  std::vector<Bounds> boxes_;                            // of triangles, when the lists were made
+  std::vector<std::array<std::uint32_t, 2>> neighbors_;  // body of triangles, body of points
   TriangleGrid grid_;
-  std::vector<PointCandidates> encounters_;
+  std::vector<CandidateGroup> candidate_groups_;
   std::vector<std::uint32_t> triangles_, found_;
-  std::vector<Meeting> meetings_;
-  std::vector<std::uint32_t> met_;
+  std::vector<BodyPair> body_pairs_;
+  std::vector<std::uint32_t> pair_points_;
 };
 
 }  // namespace aspic::collision

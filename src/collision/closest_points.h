@@ -1,5 +1,5 @@
 #pragma once
-// What a point sees of triangles, many at a time, so that a backend may compute them side by side.
+// The closest points of many triangles to a point, in columns that a backend may compute in vector lanes.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +24,7 @@ struct ClosestPointBatch {
   std::size_t count = 0;
   Vector<T> P;  ///< the point [m]
   alignas(64) BatchLane<std::int32_t> triangle;
-  // What is seen, as in ClosestPoint.
+  // Results, as in ClosestPoint.
   alignas(64) std::array<BatchLane<T>, 3> e, N;
   alignas(64) BatchLane<T> b, c, L, z;
   alignas(64) BatchLane<std::int32_t> face, real;
@@ -32,7 +32,7 @@ struct ClosestPointBatch {
   Vector<T> at(const std::array<BatchLane<T>, 3>& of, std::size_t n) const {
     return {of[0][n], of[1][n], of[2][n]};
   }
-  ClosestPoint<T> sight(std::size_t n, std::uint32_t side) const {
+  ClosestPoint<T> point(std::size_t n, std::uint32_t side) const {
     return {static_cast<std::uint32_t>(triangle[n]),
             side,
             {b[n], c[n], face[n] != 0},
@@ -43,7 +43,7 @@ struct ClosestPointBatch {
   }
 };
 
-/// Triangles by the points of their corners, and where these are [m].
+/// Triangles by the points of their corners, and the places of these [m].
 template <class T>
 struct FacesInSpace {
   std::span<const std::array<std::uint32_t, 4>> faces;
@@ -55,14 +55,14 @@ struct FacesInSpace {
   }
 };
 
-/// Fills in what is seen of the first `count`; of a triangle without area nothing but that.
+/// Fills in the results of the first `count`; of a triangle without area only `real`.
 template <class T>
-void look_one_by_one(const FacesInSpace<T>& faces, ClosestPointBatch<T>& batch) {
+void closest_points_one_by_one(const FacesInSpace<T>& faces, ClosestPointBatch<T>& batch) {
   for (std::size_t n = 0; n < batch.count; ++n) {
     const Face<T> face = faces[static_cast<std::uint32_t>(batch.triangle[n])];
     batch.real[n] = face.real;
     if (!face.real) continue;
-    const ClosestPoint<T> seen = sight_of<T>(0, 0, face, batch.P);
+    const ClosestPoint<T> seen = closest_point<T>(0, 0, face, batch.P);
     for (std::size_t c = 0; c < 3; ++c) {
       batch.e[c][n] = seen.e[static_cast<Eigen::Index>(c)];
       batch.N[c][n] = seen.N[static_cast<Eigen::Index>(c)];

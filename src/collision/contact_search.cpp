@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::uint32_t nowhere = 0xffffffffu;
 
-/// Of lists of what is near, in spacings: larger ones take longer to make, and live longer.
-constexpr double near_slack = 0.5;
-/// For which short lists are made, in spacings: what is in no list of what is near stays out of their reach.
-constexpr float longest_way = 0.3f;
-/// A point that touches nothing until it has gone by so many spacings is not looked at until then.
-constexpr float least_idle = 0.04f;
+/// Slack of the candidate lists [spacings]: larger ones take longer to make and hold longer.
+constexpr double list_slack = 0.5;
+/// Displacement for which cache entries are made [spacings]; triangles outside the lists stay irrelevant.
+constexpr float cache_reach = 0.3f;
+/// Least displacement for which a point counts as separated [spacings].
+constexpr float least_separation = 0.04f;
 
-/// P, or N_P, of the points of the carriers.
+/// P, or N_P, from the values at the carriers.
 template <class T, class Value>
 Vector<T> over_own(const SurfacePoint& point, const Value& value) {
   if (point.single()) return value(point.own[0]);
@@ -29,23 +29,24 @@ Vector<T> over_own(const SurfacePoint& point, const Value& value) {
          static_cast<T>(point.weight[1]) * value(point.own[1]);
 }
 
-/// How far, up to `most` [m], a point may go against each corner of a triangle before it touches it, from
-/// either side and whatever else is near; 0 or less if not far.
+/// Displacement relative to each corner of a triangle, up to `most`, before which a point cannot touch it
+/// from either side [m]; may be negative.
 template <class T>
-T free_way(const ClosestPoint<T>& seen, const Face<T>& face, const PairConstants<T>& pair, T most) {
-  const T first = std::min(most, seen.L - pair.sight), off = seen.L - pair.eased;
+T free_displacement(const ClosestPoint<T>& seen, const Face<T>& face, const PairConstants<T>& pair, T most) {
+  const T first = std::min(most, seen.L - pair.range), off = seen.L - pair.eased;
   if (!pair.closed || first <= off) return first;
-  // Left is a touch from inside, for which −z has to become 0.7 L. With the corners its plane moves at the
-  // point's foot by κ·way, κ the sum of the foot's absolute barycentric coordinates, and N turns.
+  // What remains is contact from inside, which needs −z ≥ 0.7 L. A displacement of the corners moves the
+  // plane at the point's projection by up to κ times as much, κ being the sum of the absolute barycentric
+  // coordinates there, and turns N.
   const T ab = norm3<T>(face.B - face.A), ac = norm3<T>(face.C - face.A), bc = norm3<T>(face.C - face.B);
   const T area = norm3<T>(face.g), longest = (ab + ac + bc) - std::min({ab, ac, bc});
   const T aside = std::sqrt(std::max(seen.L * seen.L - seen.z * seen.z, T(0)));
   const T kappa = T(1) + T(2.01) * aside * longest / area;
-  for (T way = first; way > T(0.02) * pair.s; way *= T(0.8)) {
-    const T turn = T(4) * way * (ab + ac + T(2) * way) / area;
+  for (T displacement = first; displacement > T(0.02) * pair.s; displacement *= T(0.8)) {
+    const T turn = T(4) * displacement * (ab + ac + T(2) * displacement) / area;
     if (seen.z + T(0.7) * seen.L >
-        std::abs(seen.z) * std::min(T(0.5) * turn * turn, T(2)) + way * (kappa + T(0.7)))
-      return std::max(way, off);
+        std::abs(seen.z) * std::min(T(0.5) * turn * turn, T(2)) + displacement * (kappa + T(0.7)))
+      return std::max(displacement, off);
   }
   return off;
 }
@@ -55,11 +56,7 @@ T free_way(const ClosestPoint<T>& seen, const Face<T>& face, const PairConstants
 template <class T>
 ContactSearch<T>::ContactSearch(const Model& model, double ahead_step)
     : ContactSearch(model, ahead_step, false) {
-  ContactSearch<double> initial(model, 0.0, true);
-  const Field<double> x = field<double>(model.initial_position.list(0, model.particle_count()));
-  const Field<double> v = Field<double>::Zero(3, x.cols());
-  const ParticleView<const double> at = {components(x.data()), components(v.data()), 3};
-  if (initial.begin_step(0, at) && initial.find(at)) overlaps_ = {surfaces_, initial.contacts()};
+  overlaps_ = {model, surfaces_, ContactSearch<double>(model, 0.0, true)};
 }
 
 template <class T>
@@ -67,12 +64,12 @@ ContactSearch<T>::ContactSearch(const Model& model, double ahead_step, bool init
     : ContactForces<T>(model.simulation.timestep),
       surfaces_(contact_surfaces(model)),
       table_(model.contact, surfaces_.bodies, ahead_step),
-      near_(model, surfaces_, near_slack, true),
+      lists_(model, surfaces_, list_slack, true),
       timestep_(model.simulation.timestep),
       initial_(initial),
-      ways_(surfaces_),
+      displacements_(surfaces_),
       normals_(surfaces_),
-      short_(surfaces_),
+      cache_(surfaces_),
       x_(surfaces_.points.size()),
       v_(surfaces_.points.size()),
       place_of_(surfaces_.points.size(), nowhere),
@@ -86,347 +83,349 @@ ContactSearch<T>::ContactSearch(const Model& model, double ahead_step, bool init
 }
 
 template <class T>
-bool ContactSearch<T>::begin_measured(std::uint64_t step, const Particles& start) {
-  if (!ways_.hold(near_)) {
-    // Of what was not near, nothing has come as near as short lists reach if it has come little nearer than
-    // the lists of what is near allow.
-    if (!ways_.hold(near_, 0.2 * near_.slack()))
-      for (std::size_t n = 0; n < own_.size(); ++n) short_.begin(n, -1.0);
+bool ContactSearch<T>::begin_with_displacements(std::uint64_t step, const Particles& start) {
+  if (!displacements_.hold(lists_)) {
+    // If limits are exceeded by little, no triangle outside the lists has come within the reach of entries.
+    if (!displacements_.hold(lists_, 0.2 * lists_.slack()))
+      for (std::size_t n = 0; n < own_.size(); ++n) cache_.begin(n, -1.0);
     for (const auto& [particle, point] : surface_) {
       const Vector<T> x = start.position(particle);
       places_[point] = {x.x(), x.y(), x.z()};
     }
-    near_.make(places_);
-    ways_.begin(start);
-    list_used(start);
+    lists_.make(places_);
+    displacements_.begin(start);
+    take_lists(start);
   }
   laid_out_ = true;
   start_ = start;
   overlaps_.begin_step(surfaces_, table_, static_cast<T>(static_cast<double>(step) * timestep_));
-  return !near_.encounters().empty();
+  return !lists_.candidate_groups().empty();
 }
 
-/// Other encounters are near.
+/// Takes the candidate groups of new lists.
 template <class T>
-void ContactSearch<T>::list_used(const Particles& at) {
-  name(near_.met());
-  met_.clear();
-  for (const std::uint32_t p : named_.added()) met_.push_back({surfaces_.points[p].carrier[0], p});
+void ContactSearch<T>::take_lists(const Particles& at) {
+  involve(lists_.pair_points());
+  pair_points_.clear();
+  for (const std::uint32_t p : involved_.added()) pair_points_.push_back({surfaces_.points[p].carrier[0], p});
   lay_out(at, one_by_one);
   own_.clear();
-  asked_.clear();
-  std::uint32_t own = 0;  // they ascend
-  for (const PointCandidates& near : near_.encounters()) {
+  inputs_.clear();
+  std::uint32_t own = 0;  // ascending
+  for (const CandidateGroup& near : lists_.candidate_groups()) {
     const SurfacePoint& point = surfaces_.points[near.point];
     while (own + 1 < surfaces_.bodies.size() && surfaces_.bodies[own + 1].first_point <= near.point) ++own;
     own_.push_back(own);
-    asked_.push_back(
+    inputs_.push_back(
         {point.own, {weight_[0][near.point], weight_[1][near.point]}, table_.of(own_.back(), near.body)});
   }
-  short_.reset(near_, own_, x_);
-  name(short_.followed());
+  cache_.reset(lists_, own_, x_);
+  involve(cache_.tracked());
   particles_.clear();
-  for (const std::uint32_t p : named_.added()) {
+  for (const std::uint32_t p : involved_.added()) {
     place_of_[p] = static_cast<std::uint32_t>(particles_.size());
     particles_.push_back(surfaces_.points[p].carrier[0]);
   }
   normals_.clear();
-  for (std::size_t n = 0; n < own_.size(); ++n) want(n);
+  for (std::size_t n = 0; n < own_.size(); ++n) request_normals(n);
   normals_.sort();
 }
 
-/// These points, ascending and each once.
+/// Sets the points that contacts may refer to.
 template <class T>
-void ContactSearch<T>::name(std::span<const std::uint32_t> points) {
-  named_.clear();
-  for (const std::uint32_t p : points) named_.add(p);
-  named_.sort();
+void ContactSearch<T>::involve(std::span<const std::uint32_t> points) {
+  involved_.clear();
+  for (const std::uint32_t p : points) involved_.add(p);
+  involved_.sort();
 }
 
-/// What is made ahead for the short list of an encounter.
+/// Requests the normals that the cached query of a group needs.
 template <class T>
-void ContactSearch<T>::want(std::size_t encounter) {
-  if (short_[encounter].count > 0 && !short_[encounter].idle)
-    normals_.want(surfaces_.points[near_.encounters()[encounter].point]);
+void ContactSearch<T>::request_normals(std::size_t candidate_group) {
+  if (cache_[candidate_group].count > 0 && !cache_[candidate_group].separated)
+    normals_.request(surfaces_.points[lists_.candidate_groups()[candidate_group].point]);
 }
 
-/// Whether the box of a triangle holds a point near it at the start of the step.
+/// The definition of candidates (physics/contact/candidates.h).
 template <class T>
-bool ContactSearch<T>::is_candidate(const PointCandidates& near, const PairConstants<T>& pair,
+bool ContactSearch<T>::is_candidate(const CandidateGroup& near, const PairConstants<T>& pair,
                                     std::uint32_t triangle) const {
   return box_of<T>(surfaces_.triangles[triangle], *start_)
       .holds(pair.margin, position_of<T>(surfaces_.points[near.point], *start_));
 }
 
 template <class T>
-void ContactSearch<T>::find_in(std::size_t number) {
-  Piece& piece = pieces_[number];
-  const bool in_turn = in_turn_.load(std::memory_order_acquire) == number;
-  piece.out = in_turn ? &contacts_ : &piece.contacts;
-  piece.contacts.clear();
-  piece.listed.clear();
-  const std::size_t first = number * piece_size,
-                    end = std::min(near_.encounters().size(), first + piece_size);
+void ContactSearch<T>::run_task(std::size_t number) {
+  Task& task = tasks_[number];
+  const bool in_order = done_in_order_.load(std::memory_order_acquire) == number;
+  task.out = in_order ? &contacts_ : &task.contacts;
+  task.contacts.clear();
+  task.cached.clear();
+  const std::size_t first = number * groups_per_task,
+                    end = std::min(lists_.candidate_groups().size(), first + groups_per_task);
   ContactBatch<T> batch;
-  if (side_by_side_ != nullptr && !overlaps_.active() && !initial_) {
-    ask(first, end, batch);
-    if (batch.count > 0) side_by_side_(tables(), batch);
+  if (batch_kernel_ != nullptr && !overlaps_.active() && !initial_) {
+    collect(first, end, batch);
+    if (batch.count > 0) batch_kernel_(tables(), batch);
   }
   std::size_t asked = 0;
   for (std::size_t n = first; n < end; ++n) {
-    const bool side_by_side = asked < batch.count && static_cast<std::size_t>(batch.encounter[asked]) == n;
+    const bool side_by_side =
+        asked < batch.count && static_cast<std::size_t>(batch.candidate_group[asked]) == n;
     const std::size_t place = side_by_side ? asked++ : 0;
-    if (side_by_side && batch.answer[place] != batch.unsure) {
-      if (batch.answer[place] == batch.contacts) add(n, batch, place, piece);
-    } else if (short_.may_contact(n)) {
-      const Looker p = looker(n);
-      if (stays_apart(p)) continue;
-      if (!look_at_few(p, piece.sights)) look_at_all(p, piece);
-      contact(p, piece);
+    if (side_by_side && batch.answer[place] != batch.undecided) {
+      if (batch.answer[place] == batch.contacts) add(n, batch, place, task);
+    } else if (cache_.may_contact(n)) {
+      const Query p = query_of(n);
+      if (stays_separated(p)) continue;
+      if (!query_cached(p, task.closest)) query_all(p, task);
+      contact(p, task);
     }
   }
-  if (in_turn) in_turn_.store(number + 1, std::memory_order_release);
+  if (in_order) done_in_order_.store(number + 1, std::memory_order_release);
 }
 
-/// The encounters of a range whose short lists hold and name triangles.
+/// Collects the groups of a range whose cache entries are valid and hold triangles.
 template <class T>
-void ContactSearch<T>::ask(std::size_t first, std::size_t end, ContactBatch<T>& batch) const {
+void ContactSearch<T>::collect(std::size_t first, std::size_t end, ContactBatch<T>& batch) const {
   for (std::size_t n = first; n < end; ++n) {
-    if (!short_.holds(n) || !short_.may_contact(n)) continue;
-    const std::uint32_t listed = short_[n].count;
+    if (!cache_.holds(n) || !cache_.may_contact(n)) continue;
+    const std::uint32_t cached = cache_[n].count;
     const std::size_t place = batch.count++;
-    batch.encounter[place] = static_cast<std::int32_t>(n);
-    batch.pair[place] = static_cast<std::int32_t>(asked_[n].pair);
+    batch.candidate_group[place] = static_cast<std::int32_t>(n);
+    batch.pair[place] = static_cast<std::int32_t>(inputs_[n].pair);
     for (std::size_t each = 0; each < 2; ++each) {
-      batch.own[each][place] = static_cast<std::int32_t>(asked_[n].own[each]);
-      batch.weight[each][place] = asked_[n].weight[each];
+      batch.own[each][place] = static_cast<std::int32_t>(inputs_[n].own[each]);
+      batch.weight[each][place] = inputs_[n].weight[each];
     }
-    batch.listed[place] = static_cast<std::int32_t>(listed);
-    batch.limit[place] = static_cast<T>(short_.limit(n)) - static_cast<T>(near_.pad());
+    batch.cached[place] = static_cast<std::int32_t>(cached);
+    batch.limit[place] = static_cast<T>(cache_.limit(n)) - static_cast<T>(lists_.rounding());
   }
   if (batch.count == 0) return;
-  // Lanes behind the last look, too.
+  // Fills the lanes behind the last query.
   const auto repeat = [&](auto& lane) {
     std::fill_n(lane.begin() + static_cast<std::ptrdiff_t>(batch.count), batch_behind, lane[batch.count - 1]);
   };
-  repeat(batch.encounter);
+  repeat(batch.candidate_group);
   repeat(batch.pair);
   for (std::size_t each = 0; each < 2; ++each) {
     repeat(batch.own[each]);
     repeat(batch.weight[each]);
   }
-  repeat(batch.listed);
+  repeat(batch.cached);
   repeat(batch.limit);
 }
 
 template <class T>
 ContactTables<T> ContactSearch<T>::tables() const {
-  const auto& lists = short_.lists();
-  static_assert(sizeof(lists[0]) % sizeof(lists[0].triangle[0]) == 0);
+  const auto& entries = cache_.entries();
+  static_assert(sizeof(entries[0]) % sizeof(entries[0].triangle[0]) == 0);
   return {x_.data(),
           v_.data(),
           normals_.rows(),
           surfaces_.faces.data(),
-          lists[0].triangle.data(),
-          sizeof(lists[0]) / sizeof(lists[0].triangle[0]),
+          entries[0].triangle.data(),
+          sizeof(entries[0]) / sizeof(entries[0].triangle[0]),
           table_.pairs().data(),
-          static_cast<T>(near_.pad()),
+          static_cast<T>(lists_.rounding()),
           at_end_};
 }
 
 template <class T>
-typename ContactSearch<T>::Looker ContactSearch<T>::looker(std::size_t n) const {
-  const PointCandidates& near = near_.encounters()[n];
+typename ContactSearch<T>::Query ContactSearch<T>::query_of(std::size_t n) const {
+  const CandidateGroup& near = lists_.candidate_groups()[n];
   const auto place = [&](std::uint32_t own) { return vector_of(x_[own]); };
-  return {n, near, table_[asked_[n].pair], over_own<T>(surfaces_.points[near.point], place)};
+  return {n, near, table_[inputs_[n].pair], over_own<T>(surfaces_.points[near.point], place)};
 }
 
-/// N_P, where only faces count that turn to the point.
+/// N_P, or zero where it is not needed.
 template <class T>
-Vector<T> ContactSearch<T>::normal_of(const Looker& p) const {
+Vector<T> ContactSearch<T>::normal_of(const Query& p) const {
   if (!p.pair.opposing) return Vector<T>::Zero();
   return over_own<T>(surfaces_.points[p.near.point], [&](std::uint32_t own) { return normals_.at(own, x_); });
 }
 
 template <class T>
 void ContactSearch<T>::gather() {
-  const std::size_t pieces = pieces_of(near_.encounters().size());
-  for (std::size_t n = in_turn_; n < pieces; ++n)
-    contacts_.insert(contacts_.end(), pieces_[n].contacts.begin(), pieces_[n].contacts.end());
-  for (std::size_t n = 0; n < pieces; ++n)
-    for (const std::size_t listed : pieces_[n].listed) want(listed);
+  const std::size_t tasks = tasks_of(lists_.candidate_groups().size());
+  for (std::size_t n = done_in_order_; n < tasks; ++n)
+    contacts_.insert(contacts_.end(), tasks_[n].contacts.begin(), tasks_[n].contacts.end());
+  for (std::size_t n = 0; n < tasks; ++n)
+    for (const std::size_t cached : tasks_[n].cached) request_normals(cached);
 }
 
-/// More than distances are wrong by [m].
+/// Upper bound of the rounding error of a distance [m].
 template <class T>
-T ContactSearch<T>::pad(const PairConstants<T>& pair) const {
-  return T(0.002) * pair.s + static_cast<T>(near_.pad());
+T ContactSearch<T>::rounding(const PairConstants<T>& pair) const {
+  return T(0.002) * pair.s + static_cast<T>(lists_.rounding());
 }
 
-/// Triangles farther than this [m] change nothing for a point whose nearest is `least` away.
+/// Distance beyond which triangles do not matter to a point whose nearest is `least` away [m].
 template <class T>
-T ContactSearch<T>::enough(std::optional<T> least, const PairConstants<T>& pair) const {
-  const T in_contact = std::max(pair.sight, pair.eased) + pair.tie;
-  return (least && *least <= in_contact ? std::max(*least, pair.sight) + pair.tie : in_contact) + pad(pair);
+T ContactSearch<T>::relevant_distance(std::optional<T> least, const PairConstants<T>& pair) const {
+  const T in_contact = std::max(pair.range, pair.eased) + pair.tie;
+  return (least && *least <= in_contact ? std::max(*least, pair.range) + pair.tie : in_contact) +
+         rounding(pair);
 }
 
-/// Whether a point that was to touch nothing for a while touches nothing for another, going by the triangles
-/// that it may touch first.
+/// Whether a separated point stays so, by the triangles that it can touch first. Extends the entry.
 template <class T>
-bool ContactSearch<T>::stays_apart(const Looker& p) {
-  const auto& list = short_[p.n];
-  if (!list.idle) return false;
-  const T way = longest_way * p.pair.s, pad = this->pad(p.pair);
-  double idle = short_.limit(p.n);
-  for (std::size_t n = 0; n < list.count; ++n) {
-    const Face<T> face = faces()[list.triangle[n]];
+bool ContactSearch<T>::stays_separated(const Query& p) {
+  const auto& entry = cache_[p.n];
+  if (!entry.separated) return false;
+  const T displacement = cache_reach * p.pair.s, rounding = this->rounding(p.pair);
+  double separated = cache_.limit(p.n);
+  for (std::size_t n = 0; n < entry.count; ++n) {
+    const Face<T> face = faces()[entry.triangle[n]];
     if (!face.real) return false;
-    const ClosestPoint<T> seen = sight_of<T>(list.triangle[n], 0, face, p.P);
-    idle = std::min(idle, static_cast<double>(free_way<T>(seen, face, p.pair, way + pad) - pad));
+    const ClosestPoint<T> seen = closest_point<T>(entry.triangle[n], 0, face, p.P);
+    separated = std::min(
+        separated,
+        static_cast<double>(free_displacement<T>(seen, face, p.pair, displacement + rounding) - rounding));
   }
-  if (!(idle >= static_cast<double>(least_idle * p.pair.s))) return false;
-  short_.prolong(p.n, idle);
+  if (!(separated >= static_cast<double>(least_separation * p.pair.s))) return false;
+  cache_.extend(p.n, separated);
   return true;
 }
 
-/// Fills in `sights` with what may matter from the short list. Returns false if it does not hold.
+/// Fills in `closest` from the cache entry. Returns false if the entry does not suffice.
 template <class T>
-bool ContactSearch<T>::look_at_few(const Looker& p, std::vector<ClosestPoint<T>>& sights) const {
-  sights.clear();
-  if (!short_.holds(p.n)) return false;
-  const auto& list = short_[p.n];
+bool ContactSearch<T>::query_cached(const Query& p, std::vector<ClosestPoint<T>>& closest) const {
+  closest.clear();
+  if (!cache_.holds(p.n)) return false;
+  const auto& entry = cache_[p.n];
   const Vector<T> N = normal_of(p);
   std::optional<T> least;
-  for (std::size_t n = 0; n < list.count; ++n) {
-    const std::uint32_t t = list.triangle[n];
+  for (std::size_t n = 0; n < entry.count; ++n) {
+    const std::uint32_t t = entry.triangle[n];
     const Face<T> face = faces()[t];
     if (!counts<T>(face, p.pair, N)) continue;
-    sights.push_back(sight_of<T>(t, surfaces_.triangles[t].side, face, p.P));
-    if (!least || sights.back().L < *least) least = sights.back().L;
+    closest.push_back(closest_point<T>(t, surfaces_.triangles[t].side, face, p.P));
+    if (!least || closest.back().L < *least) least = closest.back().L;
   }
-  const T matters = enough(least, p.pair);
-  std::erase_if(sights, [&](const ClosestPoint<T>& seen) { return !(seen.L <= matters); });
-  return short_.limit(p.n) > static_cast<double>(matters);
+  const T matters = relevant_distance(least, p.pair);
+  std::erase_if(closest, [&](const ClosestPoint<T>& seen) { return !(seen.L <= matters); });
+  return cache_.limit(p.n) > static_cast<double>(matters);
 }
 
-/// The same from all that is near. Then makes the short list, of the triangles that may come to matter before
-/// the zone has gone by some way, or, of a point that touches none until then, of those that it may touch
-/// first.
+/// Fills in `closest` from all candidates and makes a new cache entry: of the triangles that can matter
+/// within a displacement, or, for a point that is separated until then, of those that it can touch first.
 template <class T>
-void ContactSearch<T>::look_at_all(const Looker& p, Piece& piece) {
-  const T way = longest_way * p.pair.s, pad = this->pad(p.pair);
-  const T far = enough(std::nullopt, p.pair) + way;
-  std::vector<ClosestPoint<T>>&sights = piece.sights, &around = piece.around;
-  sights.clear();
+void ContactSearch<T>::query_all(const Query& p, Task& task) {
+  const T displacement = cache_reach * p.pair.s, rounding = this->rounding(p.pair);
+  const T far = relevant_distance(std::nullopt, p.pair) + displacement;
+  std::vector<ClosestPoint<T>>&closest = task.closest, &around = task.around;
+  closest.clear();
   around.clear();
-  piece.by_distance.clear();
-  // No longer than that every triangle of the list is a candidate.
-  auto& list = short_.begin(p.n, static_cast<double>(way));
+  task.by_distance.clear();
+  // Within this displacement every triangle of the entry is a candidate.
+  auto& entry = cache_.begin(p.n, static_cast<double>(displacement));
   bool lasts = true;
   ClosestPointBatch<T> batch;
   batch.P = p.P;
-  for (auto all = near_.triangles(p.near); !all.empty(); all = all.subspan(batch.count)) {
+  for (auto all = lists_.triangles(p.near); !all.empty(); all = all.subspan(batch.count)) {
     batch.count = std::min(all.size(), batch_room);
     for (std::size_t n = 0; n < batch.count; ++n) batch.triangle[n] = static_cast<std::int32_t>(all[n]);
-    look_(faces(), batch);
+    kernel_(faces(), batch);
     for (std::size_t n = 0; n < batch.count; ++n) {
-      if (!batch.real[n]) lasts = false;  // it may get an area
+      if (!batch.real[n]) lasts = false;  // it may gain an area
       if (!batch.real[n] || !(batch.L[n] <= far)) continue;
-      piece.by_distance.push_back({batch.L[n], static_cast<std::uint32_t>(around.size())});
-      around.push_back(batch.sight(n, surfaces_.triangles[all[n]].side));
+      task.by_distance.push_back({batch.L[n], static_cast<std::uint32_t>(around.size())});
+      around.push_back(batch.point(n, surfaces_.triangles[all[n]].side));
     }
   }
-  std::ranges::sort(piece.by_distance);
-  piece.listed.push_back(p.n);
-  // Most points touch nothing until they have gone by some way.
-  piece.by_way.clear();
-  T idle = way;
-  for (std::size_t n = 0; n < around.size() && idle >= least_idle * p.pair.s; ++n) {
-    const ClosestPoint<T>& seen = around[piece.by_distance[n].second];
-    const T free = free_way<T>(seen, faces()[seen.triangle], p.pair, way + pad) - pad;
-    idle = std::min(idle, free);
-    if (free < way) piece.by_way.push_back({free, piece.by_distance[n].second});
+  std::ranges::sort(task.by_distance);
+  task.cached.push_back(p.n);
+  // Most points are separated.
+  task.by_displacement.clear();
+  T separated = displacement;
+  for (std::size_t n = 0; n < around.size() && separated >= least_separation * p.pair.s; ++n) {
+    const ClosestPoint<T>& seen = around[task.by_distance[n].second];
+    const T free =
+        free_displacement<T>(seen, faces()[seen.triangle], p.pair, displacement + rounding) - rounding;
+    separated = std::min(separated, free);
+    if (free < displacement) task.by_displacement.push_back({free, task.by_distance[n].second});
   }
-  if (idle >= least_idle * p.pair.s) {
-    list.idle = lasts;
-    list.spare = lasts ? static_cast<double>(idle) - short_.way(p.n) : -1.0;
-    std::ranges::sort(piece.by_way);
-    list.bound = list_first(p, piece.by_way, way, way, around) - short_.way(p.n);
+  if (separated >= least_separation * p.pair.s) {
+    entry.separated = lasts;
+    entry.valid_until = lasts ? static_cast<double>(separated) - cache_.displacement(p.n) : -1.0;
+    std::ranges::sort(task.by_displacement);
+    entry.clearance =
+        cache_first(p, task.by_displacement, displacement, displacement, around) - cache_.displacement(p.n);
     return;
   }
   const Vector<T> N = normal_of(p);
   for (const ClosestPoint<T>& seen : around)
     if (counts<T>(faces()[seen.triangle], p.pair, N) && is_candidate(p.near, p.pair, seen.triangle))
-      sights.push_back(seen);
+      closest.push_back(seen);
   const ClosestPoint<T>* const first =
-      nearest_of<T>(sights, p.pair.tie, [](const ClosestPoint<T>&) { return true; });
-  const T most = enough(first ? std::optional(first->L) : std::nullopt, p.pair) + way;
-  list.bound = list_first(p, piece.by_distance, most, far, around) - short_.way(p.n);
-  for (std::size_t n = 0; n < list.count; ++n)
-    if (!is_candidate(p.near, p.pair, list.triangle[n])) lasts = false;  // it came within this step
-  if (!lasts) list.spare = -1.0;
-  std::sort(list.triangle.begin(), list.triangle.begin() + list.count);
+      nearest_of<T>(closest, p.pair.tie, [](const ClosestPoint<T>&) { return true; });
+  const T most = relevant_distance(first ? std::optional(first->L) : std::nullopt, p.pair) + displacement;
+  entry.clearance = cache_first(p, task.by_distance, most, far, around) - cache_.displacement(p.n);
+  for (std::size_t n = 0; n < entry.count; ++n)
+    if (!is_candidate(p.near, p.pair, entry.triangle[n])) lasts = false;  // it became one within this step
+  if (!lasts) entry.valid_until = -1.0;
+  std::sort(entry.triangle.begin(), entry.triangle.begin() + entry.count);
 }
 
-/// The first by distance, up to `most` [m], are those of the short list. Returns the distance of the next, or
-/// `beyond` if there is none [m].
+/// Caches the first triangles by distance, up to `most`. Returns the distance of the next one, or `beyond` if
+/// there is none [m].
 template <class T>
-double ContactSearch<T>::list_first(const Looker& p, const Order& order, T most, T beyond,
-                                    const std::vector<ClosestPoint<T>>& around) {
-  auto& list = short_.list(p.n);
+double ContactSearch<T>::cache_first(const Query& p, const Order& order, T most, T beyond,
+                                     const std::vector<ClosestPoint<T>>& around) {
+  auto& entry = cache_.entry(p.n);
   for (const auto& [distance, n] : order) {
-    if (distance > most || list.count == most_listed) return static_cast<double>(distance);
-    list.triangle[list.count++] = around[n].triangle;
+    if (distance > most || entry.count == most_cached) return static_cast<double>(distance);
+    entry.triangle[entry.count++] = around[n].triangle;
   }
   return static_cast<double>(beyond);
 }
 
 template <class T>
-void ContactSearch<T>::contact(const Looker& p, Piece& piece) const {
+void ContactSearch<T>::contact(const Query& p, Task& task) const {
   const T depth = initial_ ? p.pair.eased : overlaps_.depth(p.near.point, p.near.body, p.pair);
-  select_contacts<T>(piece.sights, p.pair, depth, [&](const ClosestPoint<T>& seen, const ContactGap<T>& gap) {
-    add(p, seen, gap, piece);
-  });
+  select_contacts<T>(task.closest, p.pair, depth,
+                     [&](const ClosestPoint<T>& seen, const ContactGap<T>& gap) { add(p, seen, gap, task); });
 }
 
 template <class T>
-void ContactSearch<T>::add(const Looker& p, const ClosestPoint<T>& seen, const ContactGap<T>& gap,
-                           Piece& piece) const {
-  ContactPoint<T>& made = begin_contact(p.n, seen.triangle, seen.at.b, seen.at.c, piece);
+void ContactSearch<T>::add(const Query& p, const ClosestPoint<T>& seen, const ContactGap<T>& gap,
+                           Task& task) const {
+  ContactPoint<T>& made = begin_contact(p.n, seen.triangle, seen.at.b, seen.at.c, task);
   made.n = gap.n;
   made.d = gap.d;
   made.reach = overlaps_.reach(p.near.point, p.near.body, p.pair);
-  const auto v = [&](std::uint32_t place) { return vector_of(v_[named_.added()[place]]); };
+  const auto v = [&](std::uint32_t place) { return vector_of(v_[involved_.added()[place]]); };
   set_normal_force<T>(made, dot3<T>(made.n, over_carriers<T>(made, v) - over_corners<T>(made, v)), at_end_);
 }
 
-/// What has been found side by side.
+/// Adds a contact found in vector lanes.
 template <class T>
-void ContactSearch<T>::add(std::size_t encounter, const ContactBatch<T>& batch, std::size_t place,
-                           Piece& piece) const {
-  ContactPoint<T>& made = begin_contact(encounter, static_cast<std::uint32_t>(batch.triangle[place]),
-                                        batch.b[place], batch.c[place], piece);
+void ContactSearch<T>::add(std::size_t candidate_group, const ContactBatch<T>& batch, std::size_t place,
+                           Task& task) const {
+  ContactPoint<T>& made = begin_contact(candidate_group, static_cast<std::uint32_t>(batch.triangle[place]),
+                                        batch.b[place], batch.c[place], task);
   made.n = {batch.n[0][place], batch.n[1][place], batch.n[2][place]};
   made.d = batch.d[place];
-  made.reach = table_[asked_[encounter].pair].reach;
+  made.reach = table_[inputs_[candidate_group].pair].reach;
   made.static_force = batch.static_force[place];
   made.normal_force = batch.normal_force[place];
 }
 
 template <class T>
-ContactPoint<T>& ContactSearch<T>::begin_contact(std::size_t encounter, std::uint32_t triangle, T b, T c,
-                                                 Piece& piece) const {
-  const Asked& asked = asked_[encounter];
+ContactPoint<T>& ContactSearch<T>::begin_contact(std::size_t candidate_group, std::uint32_t triangle, T b,
+                                                 T c, Task& task) const {
+  const QueryInput& asked = inputs_[candidate_group];
   const auto& face = surfaces_.faces[triangle];
   const PairConstants<T>& pair = table_[asked.pair];
-  ContactPoint<T>& made = piece.out->emplace_back();
-  made.point = near_.encounters()[encounter].point;
+  ContactPoint<T>& made = task.out->emplace_back();
+  made.point = lists_.candidate_groups()[candidate_group].point;
   made.triangle = triangle;
   made.carriers = asked.own[0] == asked.own[1] ? 1 : 2;
   made.place = {place_of_[asked.own[0]], place_of_[asked.own[1]], place_of_[face[0]], place_of_[face[1]],
                 place_of_[face[2]]};
-  assert(named(asked.own[0]) && named(asked.own[1]) &&
-         std::ranges::all_of(std::span(face).first(3), [&](std::uint32_t p) { return named(p); }));
+  assert(is_involved(asked.own[0]) && is_involved(asked.own[1]) &&
+         std::ranges::all_of(std::span(face).first(3), [&](std::uint32_t p) { return is_involved(p); }));
   made.weight = {asked.weight[0], asked.weight[1], (T(1) - b) - c, b, c};
   made.k = pair.k;
   made.c = pair.c;
@@ -436,14 +435,16 @@ ContactPoint<T>& ContactSearch<T>::begin_contact(std::size_t encounter, std::uin
 
 template <class T>
 std::uint64_t ContactSearch<T>::bytes() const {
-  const auto of = [](const auto&... lists) { return ((lists.capacity() * sizeof(lists[0])) + ...); };
-  std::uint64_t all = sizeof(*this) + near_.bytes() + normals_.bytes() + short_.bytes() + ways_.bytes() +
-                      named_.bytes() + surfaces_.points.size() * sizeof(SurfacePoint) +
-                      surfaces_.triangles.size() *
-                          (sizeof(SurfaceTriangle) + sizeof(surfaces_.faces[0]) + 3 * sizeof(std::uint32_t)) +
-                      of(overlaps_.all(), weight_[0], weight_[1], x_, v_, own_, asked_, surface_, met_,
-                         places_, pieces_, contacts_, particles_, place_of_, this->share_, this->v1_);
-  for (const Piece& p : pieces_) all += of(p.sights, p.around, p.by_distance, p.by_way, p.contacts, p.listed);
+  const auto of = [](const auto&... entries) { return ((entries.capacity() * sizeof(entries[0])) + ...); };
+  std::uint64_t all =
+      sizeof(*this) + lists_.bytes() + normals_.bytes() + cache_.bytes() + displacements_.bytes() +
+      involved_.bytes() + surfaces_.points.size() * sizeof(SurfacePoint) +
+      surfaces_.triangles.size() *
+          (sizeof(SurfaceTriangle) + sizeof(surfaces_.faces[0]) + 3 * sizeof(std::uint32_t)) +
+      of(overlaps_.all(), weight_[0], weight_[1], x_, v_, own_, inputs_, surface_, pair_points_, places_,
+         tasks_, contacts_, particles_, place_of_, this->share_, this->v1_);
+  for (const Task& p : tasks_)
+    all += of(p.closest, p.around, p.by_distance, p.by_displacement, p.contacts, p.cached);
   return all;
 }
 

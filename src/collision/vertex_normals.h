@@ -1,6 +1,5 @@
 #pragma once
-// Normals of particles of surfaces where forces are evaluated: those that are wanted are made ahead, the
-// others where something asks for them.
+// Vertex normals of surfaces in a force evaluation. Requested ones are computed ahead, others on demand.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,26 +21,25 @@ class VertexNormals {
         normals_(surfaces.points.size()),
         made_(surfaces.points.size()) {}
 
-  /// Nothing is wanted.
+  /// Withdraws all requests.
   void clear() {
     points_.clear();
     triangles_.clear();
   }
-  /// Those of the carriers of a point are wanted.
-  void want(const SurfacePoint& point) {
+  /// Requests the normals of a point's carriers.
+  void request(const SurfacePoint& point) {
     for (const std::uint32_t own : point.own) {
       if (!points_.add(own)) continue;
       for (const std::uint32_t t : surfaces_.triangles_at(own)) triangles_.add(t);
     }
   }
-  /// So that what lies together is made together.
+  /// Sorts requests for memory locality.
   void sort() {
     points_.sort();
     triangles_.sort();
   }
 
-  /// Makes anew what is wanted, with particles at these places, by point; run(count, task) as in
-  /// BodyContact::find().
+  /// Computes requested normals at these places, by point; run(count, task) as in ContactSearch::find().
   template <class Run>
   void make(std::span<const Row<T>> x, const Run& run) {
     ++round_;
@@ -54,7 +52,7 @@ class VertexNormals {
       made_[point] = round_;
     });
   }
-  /// Of a particle's point: Σ g of the triangles at it, of which only the sign of products matters.
+  /// Σ g of the triangles at a particle's point; only the signs of its products are used.
   Vector<T> at(std::uint32_t point, std::span<const Row<T>> x) const {
     if (made_[point] == round_) return vector_of(normals_[point]);
     return sum(point, [&](std::uint32_t t) {
@@ -63,7 +61,7 @@ class VertexNormals {
     });
   }
 
-  /// By point; of those that are wanted.
+  /// By point; valid for requested ones.
   const Row<T>* rows() const { return normals_.data(); }
 
   std::uint64_t bytes() const {
@@ -89,7 +87,7 @@ class VertexNormals {
   }
 
   const ContactSurfaces& surfaces_;
-  NumberSet points_, triangles_;  // wanted, and the triangles at them
+  NumberSet points_, triangles_;  // requested, and the triangles at them
   std::uint64_t round_ = 0;
   std::vector<Row<T>> g_;            // by triangle
   std::vector<Row<T>> normals_;      // by point,

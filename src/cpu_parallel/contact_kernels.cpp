@@ -201,11 +201,11 @@ struct Carried {
   }
 };
 
-/// What a point sees of the triangles of its short list, one of each.
+/// What a point sees of the triangles of its short cache, one of each.
 struct Listed {
-  ClosestPoint seen[collision::most_listed];
-  Index triangle[collision::most_listed], side[collision::most_listed];
-  Mask matters[collision::most_listed];
+  ClosestPoint seen[collision::most_cached];
+  Index triangle[collision::most_cached], side[collision::most_cached];
+  Mask matters[collision::most_cached];
 };
 
 /// That which counts as the nearest: physics::nearest_of().
@@ -257,9 +257,9 @@ struct Gap {
 };
 
 /// physics::closed_gap() and open_gap()
-HWY_INLINE Gap gap_of(const ClosestPoint& seen, Mask closed, Float sight, Float depth) {
+HWY_INLINE Gap gap_of(const ClosestPoint& seen, Mask closed, Float range, Float depth) {
   const Float zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
-  const Mask behind = hn::Lt(seen.z, zero), inside = both(closed, behind), outside = hn::Lt(seen.L, sight);
+  const Mask behind = hn::Lt(seen.z, zero), inside = both(closed, behind), outside = hn::Lt(seen.L, range);
   const Mask deep = both(hn::Le(seen.L, depth), hn::Ge(hn::Neg(seen.z), hn::Mul(hn::Set(tag, 0.7f), seen.L)));
   const Vector back = {hn::Neg(seen.N.x), hn::Neg(seen.N.y), hn::Neg(seen.N.z)};
   const Mask turned = hn::AndNot(closed, behind);
@@ -271,14 +271,14 @@ HWY_INLINE Gap gap_of(const ClosestPoint& seen, Mask closed, Float sight, Float 
 }
 
 /// Whether a triangle of another side than the first contact's may be touched, too.
-HWY_INLINE Mask second_side(const Listed& all, std::size_t count, const Best& first, Float sight) {
-  Mask any = hn::Lt(sight, sight);
+HWY_INLINE Mask second_side(const Listed& all, std::size_t count, const Best& first, Float range) {
+  Mask any = hn::Lt(range, range);
   for (std::size_t j = 0; j < count; ++j) {
     const ClosestPoint& seen = all.seen[j];
     const Mask other = hn::RebindMask(tag, hn::Ne(all.side[j], first.side));
     const Mask straight =
         both(hn::Ge(seen.z, hn::Zero(tag)), hn::Ge(seen.z, hn::Mul(hn::Set(tag, 0.9f), seen.L)));
-    any = hn::Or(any, both(both(all.matters[j], other), both(straight, hn::Lt(seen.L, sight))));
+    any = hn::Or(any, both(both(all.matters[j], other), both(straight, hn::Lt(seen.L, range))));
   }
   return any;
 }
@@ -301,27 +301,27 @@ void FindContacts(const ContactTables<float>& from, ContactBatch<float>& batch) 
     const Vector P = carried.of(from.x), N_P = carried.of(from.normal);
     const Mask closed = hn::Ne(pairs.of(&Constants::closed), zero),
                either = hn::Eq(pairs.of(&Constants::opposing), zero);
-    const Float sight = pairs.of(&Constants::sight), depth = pairs.of(&Constants::depth),
+    const Float range = pairs.of(&Constants::range), depth = pairs.of(&Constants::depth),
                 tie = pairs.of(&Constants::tie);
 
-    const Index listed = numbers(batch.listed);
-    const auto count = static_cast<std::size_t>(hn::GetLane(hn::MaxOfLanes(index_tag, listed)));
+    const Index cached = numbers(batch.cached);
+    const auto count = static_cast<std::size_t>(hn::GetLane(hn::MaxOfLanes(index_tag, cached)));
     const std::uint32_t* lists[lanes];
     for (std::size_t lane = 0; lane < lanes; ++lane)
-      lists[lane] = from.list + static_cast<std::size_t>(batch.encounter[n + lane]) * from.list_size;
+      lists[lane] = from.cache + static_cast<std::size_t>(batch.candidate_group[n + lane]) * from.entry_size;
     for (std::size_t next = n + lanes; next < std::min(n + 2 * lanes, batch.count); ++next) {
-      const std::uint32_t* const list =
-          from.list + static_cast<std::size_t>(batch.encounter[next]) * from.list_size;
-      for (std::int32_t j = 0; j < batch.listed[next]; ++j) hwy::Prefetch(&from.faces[list[j]]);
+      const std::uint32_t* const cache =
+          from.cache + static_cast<std::size_t>(batch.candidate_group[next]) * from.entry_size;
+      for (std::int32_t j = 0; j < batch.cached[next]; ++j) hwy::Prefetch(&from.faces[cache[j]]);
     }
     Listed all;
     // All that is read for the same lanes comes before what is computed of it: reads wait for each other.
-    Faces at[collision::most_listed];
+    Faces at[collision::most_cached];
     for (std::size_t j = 0; j < count; ++j) {
       alignas(64) std::int32_t t[lanes];
       for (std::size_t lane = 0; lane < lanes; ++lane)
         t[lane] = static_cast<std::int32_t>(
-            lists[lane][j < static_cast<std::size_t>(batch.listed[n + lane]) ? j : 0]);
+            lists[lane][j < static_cast<std::size_t>(batch.cached[n + lane]) ? j : 0]);
       at[j] = faces_at(from.faces, t);
       all.triangle[j] = hn::Load(index_tag, t);
       all.side[j] = at[j].side;
@@ -333,24 +333,25 @@ void FindContacts(const ContactTables<float>& from, ContactBatch<float>& batch) 
       const Vector g = look(P, vectors(from.x, faces.corner[0]), vectors(from.x, faces.corner[1]),
                             vectors(from.x, faces.corner[2]), seen);
       const Mask there =
-          hn::RebindMask(tag, hn::Gt(listed, hn::Set(index_tag, static_cast<std::int32_t>(j))));
+          hn::RebindMask(tag, hn::Gt(cached, hn::Set(index_tag, static_cast<std::int32_t>(j))));
       const Mask counts = both(both(there, real(g)), hn::Or(either, hn::Lt(dot3(N_P, g), zero)));
       all.matters[j] = counts;
       least = hn::IfThenElse(both(counts, hn::Lt(seen.L, least)), seen.L, least);
     }
     // As far as BodyContact::enough(), where nothing is eased apart.
-    const Float in_contact = hn::Add(hn::Max(sight, depth), tie);
-    const Float nearest = hn::Add(hn::Max(least, sight), tie);
-    const Float pad = hn::Add(hn::Mul(hn::Set(tag, 0.002f), pairs.of(&Constants::s)), hn::Set(tag, from.pad));
-    const Float enough = hn::Add(hn::IfThenElse(hn::Le(least, in_contact), nearest, in_contact), pad);
+    const Float in_contact = hn::Add(hn::Max(range, depth), tie);
+    const Float nearest = hn::Add(hn::Max(least, range), tie);
+    const Float rounding =
+        hn::Add(hn::Mul(hn::Set(tag, 0.002f), pairs.of(&Constants::s)), hn::Set(tag, from.rounding));
+    const Float enough = hn::Add(hn::IfThenElse(hn::Le(least, in_contact), nearest, in_contact), rounding);
     for (std::size_t j = 0; j < count; ++j)
       all.matters[j] = both(all.matters[j], hn::Le(all.seen[j].L, enough));
 
     const Best first = nearest_of(all, count, hn::Add(least, tie));
-    const Gap gap = gap_of(first.seen, closed, sight, depth);
+    const Gap gap = gap_of(first.seen, closed, range, depth);
     const Mask contacts = both(first.any, gap.contacts);
-    const Mask unsure = hn::Or(hn::Not(hn::Gt(hn::LoadU(tag, batch.limit.data() + n), enough)),
-                               both(both(first.any, closed), second_side(all, count, first, sight)));
+    const Mask undecided = hn::Or(hn::Not(hn::Gt(hn::LoadU(tag, batch.limit.data() + n), enough)),
+                                  both(both(first.any, closed), second_side(all, count, first, range)));
 
     const Float b0 = hn::Sub(hn::Sub(one, first.seen.at.b), first.seen.at.c);
     hn::StoreU(first.triangle, index_tag, batch.triangle.data() + n);
@@ -364,8 +365,9 @@ void FindContacts(const ContactTables<float>& from, ContactBatch<float>& batch) 
     if (from.at_end) rest = hn::Add(rest, c_u);
     const Float push = hn::Sub(rest, c_u);
 
-    const Float answer = hn::IfThenElse(unsure, hn::Set(tag, static_cast<float>(ContactBatch<float>::unsure)),
-                                        hn::IfThenElseZero(contacts, one));
+    const Float answer =
+        hn::IfThenElse(undecided, hn::Set(tag, static_cast<float>(ContactBatch<float>::undecided)),
+                       hn::IfThenElseZero(contacts, one));
     hn::StoreU(hn::ConvertTo(index_tag, answer), index_tag, batch.answer.data() + n);
     float* const to[3] = {batch.n[0].data(), batch.n[1].data(), batch.n[2].data()};
     store(gap.n, to, n);

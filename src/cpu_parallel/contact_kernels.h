@@ -1,5 +1,5 @@
 #pragma once
-// What points see of triangles, in the lanes of vectors: the bits of collision::look_one_by_one().
+// What points see of triangles, in the lanes of vectors: the bits of collision::closest_points_one_by_one().
 #include <algorithm>
 
 #include "collision/closest_points.h"
@@ -7,8 +7,8 @@
 
 namespace aspic::parallel {
 
-inline void look_side_by_side(const collision::FacesInSpace<float>& faces,
-                              collision::ClosestPointBatch<float>& batch) {
+inline void closest_points_in_lanes(const collision::FacesInSpace<float>& faces,
+                                    collision::ClosestPointBatch<float>& batch) {
   // Lanes behind the last look at a triangle that is there.
   for (std::size_t n = batch.count; n < (batch.count + 15) / 16 * 16; ++n) batch.triangle[n] = 0;
   const auto three = [](auto& of) { return std::array{of[0].data(), of[1].data(), of[2].data()}; };

@@ -87,7 +87,7 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
 void ExplicitSteps::constants_changed() {
   known_ = false;
   bodies_ = has_body_contact(*model_) ? std::make_unique<collision::ContactSearch<float>>(*model_) : nullptr;
-  if (bodies_) bodies_->set_side_by_side(look_side_by_side, contacts_in_lanes);
+  if (bodies_) bodies_->set_kernels(closest_points_in_lanes, contacts_in_lanes);
 }
 
 std::uint64_t ExplicitSteps::bytes() const {

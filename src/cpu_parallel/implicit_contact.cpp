@@ -31,7 +31,7 @@ ImplicitBodyContact::ImplicitBodyContact(const Model& model, const FloatArray& i
       product_(vector_array(count_, slice)),
       end_(vector_array(count_, slice)) {
   for (FloatArray& each : blocks_) each = FloatArray(count_, slice);
-  contact_.search().set_side_by_side(look_side_by_side, contacts_in_lanes);
+  contact_.search().set_kernels(closest_points_in_lanes, contacts_in_lanes);
 }
 
 /// Nothing that the last contacts added is left.

@@ -8,11 +8,7 @@ namespace aspic::reference {
 
 template <class T>
 BodyContact<T>::BodyContact(const Model& model, double ahead_step) : BodyContact(model, ahead_step, false) {
-  BodyContact<double> initial(model, 0.0, true);
-  const Field<double> x = field<double>(model.initial_position.list(0, model.particle_count()));
-  const Field<double> v = Field<double>::Zero(3, x.cols());
-  const ParticleView<const double> at = {components(x.data()), components(v.data()), 3};
-  if (initial.begin_step(0, at) && initial.find(at)) overlaps_ = {surfaces_, initial.contacts()};
+  overlaps_ = {model, surfaces_, BodyContact<double>(model, 0.0, true)};
 }
 
 template <class T>
@@ -66,20 +62,21 @@ Vector<T> BodyContact<T>::normal_of(const SurfacePoint& point, const Particles& 
 template <class T>
 bool BodyContact<T>::find(const Particles& at) {
   this->contacts_.clear();
-  std::vector<ClosestPoint<T>> sights;
+  std::vector<ClosestPoint<T>> closest;
   for (const Group& group : groups_) {
     const SurfacePoint& point = surfaces_.points[group.point];
     const PairConstants<T>& pair = table_.at(surfaces_.body_of_point(group.point), group.body);
     const Vector<T> P = position_of<T>(point, at);
     const Vector<T> N = pair.opposing ? normal_of(point, at) : Vector<T>(Vector<T>::Zero());
-    sights.clear();
+    closest.clear();
     for (std::uint32_t n = group.first; n < group.first + group.count; ++n) {
       const std::uint32_t t = candidates_[n];
       const Face<T> face = face_at(t, at);
-      if (counts<T>(face, pair, N)) sights.push_back(sight_of<T>(t, surfaces_.triangles[t].side, face, P));
+      if (counts<T>(face, pair, N))
+        closest.push_back(closest_point<T>(t, surfaces_.triangles[t].side, face, P));
     }
     const T depth = initial_ ? pair.eased : overlaps_.depth(group.point, group.body, pair);
-    select_contacts<T>(sights, pair, depth, [&](const ClosestPoint<T>& seen, const ContactGap<T>& gap) {
+    select_contacts<T>(closest, pair, depth, [&](const ClosestPoint<T>& seen, const ContactGap<T>& gap) {
       add(group, seen, gap, at);
     });
   }

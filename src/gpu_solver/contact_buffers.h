@@ -18,7 +18,7 @@ class ContactBuffers {
 
   bool any() const { return lists_ != nullptr; }
   /// Whether something may touch while the lists hold, so that passes are needed.
-  bool acts() const { return encounter_count_ > 0; }
+  bool acts() const { return group_count_ > 0; }
 
   /// The state, or what belongs to it, is another one: refresh() before the next step.
   void forget() { fresh_ = false; }
@@ -40,12 +40,12 @@ class ContactBuffers {
     return lists_->has_friction();
   }  ///< whether any body has friction against others
 
-  /// Encounters, particles listed and places, for as many invocations.
-  std::uint32_t encounter_count() const { return encounter_count_; }
+  /// Candidate groups, particles listed and places, for as many invocations.
+  std::uint32_t group_count() const { return group_count_; }
   std::uint32_t listed_count() const { return listed_count_; }
   std::uint32_t place_count() const { return place_count_; }
   gl::Binding triangles() const { return {BINDING_CONTACT_TRIANGLES, &triangles_}; }
-  gl::Binding encounters() const { return {BINDING_CONTACT_ENCOUNTERS, &encounters_}; }
+  gl::Binding candidate_groups() const { return {BINDING_CANDIDATE_GROUPS, &candidate_groups_}; }
   gl::Binding words() const { return {BINDING_CONTACT_WORDS, &words_}; }
   gl::Binding records() const { return {BINDING_CONTACT_RECORDS, &records_}; }
   gl::Binding listed() const { return {BINDING_CONTACT_LISTED, &listed_}; }
@@ -61,9 +61,9 @@ class ContactBuffers {
   const Model* model_ = nullptr;
   std::unique_ptr<ContactLists> lists_;
   bool fresh_ = false;
-  std::uint32_t encounter_count_ = 0, listed_count_ = 0, place_count_ = 0;
+  std::uint32_t group_count_ = 0, listed_count_ = 0, place_count_ = 0;
   std::uint64_t patience_ = 1;
-  gl::Buffer triangles_, encounters_, words_, records_, listed_, places_;
+  gl::Buffer triangles_, candidate_groups_, words_, records_, listed_, places_;
 };
 
 }  // namespace aspic

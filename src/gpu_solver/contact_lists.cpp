@@ -10,9 +10,9 @@
 namespace aspic {
 namespace {
 
-/// A kernel walks over the triangles near a point thirteen times, and over the encounters of a particle and
-/// the contacts of each: within the rounds that drivers allow (MAX_ROUNDS).
-constexpr std::size_t most_near = 4000, most_encounters = 5000;
+/// A kernel walks over the triangles near a point thirteen times, and over the candidate groups of a particle
+/// and the contacts of each: within the rounds that drivers allow (MAX_ROUNDS).
+constexpr std::size_t most_near = 4000, most_groups = 5000;
 
 /// Far above any ρ: where bodies did not overlap.
 constexpr float nowhere_near = 3e38f;
@@ -56,13 +56,13 @@ std::vector<layout::uvec4> ContactLists::triangles() const {
 }
 
 /// Without its triangles.
-layout::ContactCandidates ContactLists::encounter_of(const collision::PointCandidates& near) const {
+layout::CandidateGroup ContactLists::group_of(const collision::CandidateGroup& near) const {
   const SurfacePoint& point = surfaces_.points[near.point];
   const std::uint32_t own = surfaces_.body_of_point(near.point);
   const ContactBody &points = surfaces_.bodies[own], &faces = surfaces_.bodies[near.body];
   ContactPair pair = contact_pair(contact_, points, faces, own == near.body);
-  if (ahead_step_ > 0.0) pair = seen_ahead(pair, ahead_step_);
-  layout::ContactCandidates made{};
+  if (ahead_step_ > 0.0) pair = with_implicit_range(pair, ahead_step_);
+  layout::CandidateGroup made{};
   made.carrier0 = point.carrier[0];
   made.carrier1 = point.carrier[1];
   made.carrier_weight0 = static_cast<float>(point.weight[0]);
@@ -82,7 +82,7 @@ layout::ContactCandidates ContactLists::encounter_of(const collision::PointCandi
   made.eased_depth = static_cast<float>(pair.eased_depth);
   made.margin = static_cast<float>(pair.margin);
   made.tie = static_cast<float>(2e-6 * pair.spacing);
-  made.sight = static_cast<float>(pair.sight);
+  made.range = static_cast<float>(pair.range);
   made.contact_friction = static_cast<float>(pair.friction);
   made.start_distance = nowhere_near;
   const auto key = [](const auto& of) { return std::tuple(of.point, of.body); };
@@ -104,24 +104,25 @@ Status ContactLists::make(std::span<const layout::Particle> particles) {
   }
   near_.make(places);
   words_ = surfaces_.at_particle;
-  encounters_.clear();
-  for (const collision::PointCandidates& near : near_.encounters()) {
+  candidate_groups_.clear();
+  for (const collision::CandidateGroup& near : near_.candidate_groups()) {
     if (near.count > most_near) return too_many(near.count, "triangles near one point", most_near);
-    layout::ContactCandidates made = encounter_of(near);
+    layout::CandidateGroup made = group_of(near);
     made.near_first = static_cast<std::uint32_t>(words_.size());
     made.near_count = near.count;
     const auto triangles = near_.triangles(near);
     words_.insert(words_.end(), triangles.begin(), triangles.end());
-    encounters_.push_back(made);
+    candidate_groups_.push_back(made);
   }
   return list_particles();
 }
 
-/// For each particle that an encounter may name, the encounters that do, as a carrier and as a corner.
+/// For each particle that a candidate group may name, the candidate groups that do, as a carrier and as a
+/// corner.
 Status ContactLists::list_particles() {
   std::vector<Named> named;
-  for (std::uint32_t e = 0; e < encounters_.size(); ++e) {
-    const layout::ContactCandidates& of = encounters_[e];
+  for (std::uint32_t e = 0; e < candidate_groups_.size(); ++e) {
+    const layout::CandidateGroup& of = candidate_groups_[e];
     named.push_back({of.carrier0, e, false});
     if (of.carrier1 != of.carrier0) named.push_back({of.carrier1, e, false});
     std::vector<std::uint32_t> corners;
@@ -131,7 +132,8 @@ Status ContactLists::list_particles() {
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     for (const std::uint32_t corner : corners) named.push_back({corner, e, true});
   }
-  std::ranges::sort(named, {}, [](const Named& n) { return std::tuple(n.particle, n.visits, n.encounter); });
+  std::ranges::sort(named, {},
+                    [](const Named& n) { return std::tuple(n.particle, n.visits, n.candidate_group); });
   listed_.clear();
   for (const Named& n : named) {
     const auto at = static_cast<std::uint32_t>(words_.size());
@@ -140,9 +142,9 @@ Status ContactLists::list_particles() {
     layout::ContactParticle& of = listed_.back();
     if (n.visits && of.visit_count == 0) of.visit_first = at;
     ++(n.visits ? of.visit_count : of.own_count);
-    words_.push_back(n.encounter);
-    if (std::max(of.own_count, of.visit_count) > most_encounters)
-      return too_many(std::max(of.own_count, of.visit_count), "points near one particle", most_encounters);
+    words_.push_back(n.candidate_group);
+    if (std::max(of.own_count, of.visit_count) > most_groups)
+      return too_many(std::max(of.own_count, of.visit_count), "points near one particle", most_groups);
   }
   return {};
 }

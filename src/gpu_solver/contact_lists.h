@@ -1,7 +1,7 @@
 #pragma once
 // What the kernels of contact between bodies walk over (shaders/compute/body_contact.glsl): points with the
-// triangles near them, and for each particle the encounters that may push it. Found on the host, for as long
-// as bodies move little.
+// triangles near them, and for each particle the candidate groups that may push it. Found on the host, for as
+// long as bodies move little.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,7 +26,7 @@ class ContactLists {
 
   /// For the device: corners and sides of triangles, which stay; the rest as made last.
   std::vector<layout::uvec4> triangles() const;
-  std::span<const layout::ContactCandidates> encounters() const { return encounters_; }
+  std::span<const layout::CandidateGroup> candidate_groups() const { return candidate_groups_; }
   std::span<const std::uint32_t> words() const { return words_; }
   std::span<const layout::ContactParticle> listed() const { return listed_; }
   /// Bits of the places of all particles of surfaces; w: which particle.
@@ -36,14 +36,14 @@ class ContactLists {
   /// Whether any body has friction against others.
   bool has_friction() const;
   /// How far a particle may move from there [m].
-  double leeway() const { return near_.leeway(); }
+  double displacement_limit() const { return near_.displacement_limit(); }
 
  private:
   struct Named {
-    std::uint32_t particle, encounter;
+    std::uint32_t particle, candidate_group;
     bool visits;
   };
-  layout::ContactCandidates encounter_of(const collision::PointCandidates& near) const;
+  layout::CandidateGroup group_of(const collision::CandidateGroup& near) const;
   Status list_particles();
 
   ContactSurfaces surfaces_;
@@ -56,7 +56,7 @@ class ContactLists {
     float distance;
   };
   std::vector<Start> starts_;  // of bodies that overlap in the initial state; ascending
-  std::vector<layout::ContactCandidates> encounters_;
+  std::vector<layout::CandidateGroup> candidate_groups_;
   std::vector<std::uint32_t> words_;
   std::vector<layout::ContactParticle> listed_;
   std::vector<layout::uvec4> built_;

@@ -25,10 +25,10 @@ Status ContactPasses::build(gl::Context& context, const KernelOptions& kernels,
   const ContactBuffers& b = bodies_;
   const std::vector<Binding> own[kernel_count] = {
       {b.places()},
-      {b.triangles(), b.encounters(), b.words(), b.records()},
-      {b.listed(), values, b.encounters(), b.words(), b.records()},
-      {values, b.encounters(), b.records()},
-      {b.listed(), b.encounters(), b.words(), b.records()}};
+      {b.triangles(), b.candidate_groups(), b.words(), b.records()},
+      {b.listed(), values, b.candidate_groups(), b.words(), b.records()},
+      {values, b.candidate_groups(), b.records()},
+      {b.listed(), b.candidate_groups(), b.words(), b.records()}};
   for (std::size_t k = 0; k < kernel_count; ++k) {
     ASPIC_TRY(programs_[k], kernels.start(kernels_of_contact[k]));
     std::vector<Binding> bindings = own[k];
@@ -54,7 +54,7 @@ void ContactPasses::queue_start(const Buffer& start, std::uint32_t step) const {
 
 void ContactPasses::queue_find(const States& states, std::uint32_t step, float time) const {
   programs_[find]->set(LOCATION_CONTACT_NUMBER, time);
-  run(find, bodies_.encounter_count(), step,
+  run(find, bodies_.group_count(), step,
       std::array<Binding, 2>{{{BINDING_START_STATE, states.start}, {BINDING_STAGE_STATE, states.stage}}});
 }
 
@@ -63,7 +63,7 @@ void ContactPasses::queue_act(const States& states, std::uint32_t step) const {
       {{BINDING_START_STATE, states.start}, {BINDING_OUT_STATE, states.out}}};
   run(normal_forces, bodies_.listed_count(), step, ends);
   if (bodies_.has_friction()) {
-    run(friction, bodies_.encounter_count(), step, std::span(ends).first(1));
+    run(friction, bodies_.group_count(), step, std::span(ends).first(1));
     run(friction_sums, bodies_.listed_count(), step, std::span(ends).last(1));
   }
 }

@@ -21,13 +21,13 @@ Status ImplicitContactPasses::build(const KernelOptions& kernels, const Surround
   const ContactBuffers& t = bodies_;
   const std::vector<Binding> own[kernel_count] = {
       {a, b, t.places()},
-      {a, b, trial, t.triangles(), t.encounters(), t.words(), t.records()},
-      {search, t.listed(), t.encounters(), t.words(), t.records()},
-      {search, t.encounters(), t.records()},
-      {trial, t.encounters(), t.records()},
-      {search, t.listed(), t.encounters(), t.words(), t.records()},
-      {search, t.encounters(), t.records()},
-      {search, t.listed(), t.encounters(), t.words(), t.records()}};
+      {a, b, trial, t.triangles(), t.candidate_groups(), t.words(), t.records()},
+      {search, t.listed(), t.candidate_groups(), t.words(), t.records()},
+      {search, t.candidate_groups(), t.records()},
+      {trial, t.candidate_groups(), t.records()},
+      {search, t.listed(), t.candidate_groups(), t.words(), t.records()},
+      {search, t.candidate_groups(), t.records()},
+      {search, t.listed(), t.candidate_groups(), t.words(), t.records()}};
   for (std::size_t k = 0; k < kernel_count; ++k) {
     const std::string path = std::string("compute/implicit_contact_") + names[k] + ".comp";
     ASPIC_TRY(programs_[k], kernels.start(path));
@@ -46,17 +46,17 @@ void ImplicitContactPasses::run(Kernel kernel, std::uint32_t items, float number
 }
 
 void ImplicitContactPasses::queue_forces(float time) const {
-  run(find, bodies_.encounter_count(), time);
+  run(find, bodies_.group_count(), time);
   if (bodies_.has_friction()) {
     run(normal_forces, bodies_.listed_count());
-    run(friction, bodies_.encounter_count());
+    run(friction, bodies_.group_count());
   }
-  run(react, bodies_.encounter_count());
+  run(react, bodies_.group_count());
   run(gather, bodies_.listed_count());
 }
 
 void ImplicitContactPasses::queue_product() const {
-  run(multiply, bodies_.encounter_count());
+  run(multiply, bodies_.group_count());
   run(product, bodies_.listed_count());
 }
 

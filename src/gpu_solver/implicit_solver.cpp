@@ -268,7 +268,7 @@ std::uint32_t ImplicitSolver::queue_steps(std::uint32_t wanted) {
 
 void ImplicitSolver::begin_step() const {
   if (contact_.any()) contact_passes_.queue_start();
-  if (contact_.any()) passes_[begin].program().set(LOCATION_CONTACT_COUNT, contact_.encounter_count());
+  if (contact_.any()) passes_[begin].program().set(LOCATION_CONTACT_COUNT, contact_.group_count());
   dispatch(begin);
 }
 

@@ -18,7 +18,7 @@ static_assert(sizeof(BallItem) == 128 && offsetof(BallItem, acts) == 32 && offse
 static_assert(sizeof(BallWork) == 64 && offsetof(BallWork, word_groups) == 16);
 static_assert(sizeof(BallFacePair) == 80 && offsetof(BallFacePair, linear) == 32 &&
               sizeof(BallFaceCount) == 8);
-static_assert(sizeof(ContactCandidates) == 88 && offsetof(ContactCandidates, carrier_weight0) == 36);
+static_assert(sizeof(CandidateGroup) == 88 && offsetof(CandidateGroup, carrier_weight0) == 36);
 static_assert(sizeof(ContactRecord) == 96 && sizeof(ContactParticle) == 32);
 static_assert(sizeof(BallBody) == 16 && offsetof(BallBody, launch_step) == 8);
 static_assert(offsetof(Simulation, ball_count) == 116 && offsetof(Simulation, ball_restitution) == 128);

@@ -164,7 +164,7 @@ ContactPair contact_pair(const ContactSettings& contact, const ContactBody& poin
   pair.spacing = std::min(point_of.spacing, face_of.spacing);
   // Nothing inside an open surface pushes back what has passed its reach.
   pair.reach = (face_of.closed ? 1.0 : 2.5) * contact.body_gap * pair.spacing;
-  pair.sight = pair.reach;
+  pair.range = pair.reach;
   // A point beyond the middle of a body would be pushed out of the other side: a body of one cell is s thick,
   // less where it is compressed.
   pair.depth = 0.25 * pair.spacing;
@@ -173,9 +173,9 @@ ContactPair contact_pair(const ContactSettings& contact, const ContactBody& poin
   return pair;
 }
 
-ContactPair seen_ahead(ContactPair pair, double h) {
+ContactPair with_implicit_range(ContactPair pair, double h) {
   pair.damping = pair.stiffness * h;
-  pair.sight = std::max(pair.reach, contact_range * pair.spacing);
+  pair.range = std::max(pair.reach, contact_range * pair.spacing);
   return pair;
 }
 

@@ -79,7 +79,7 @@ struct ContactPair {
   double friction = 0.0;     ///< μ
   double spacing = 0.0;      ///< s [m]
   double reach = 0.0;        ///< ρ [m]: where pushes begin
-  double sight = 0.0;        ///< up to where contacts are found [m]
+  double range = 0.0;        ///< up to where contacts are found [m]
   double depth = 0.0;        ///< D [m]: where they end, far from the middle of the thinnest body
   double eased_depth = 0.0;  ///< the same of bodies that are eased apart [m]
   double margin = 0.0;       ///< by which the boxes of candidates are widened [m]
@@ -92,7 +92,7 @@ inline constexpr double contact_range = 0.4;
 
 /// The same pair where pushes are those at the end of a step h [s], k·(ρ − d − h·u): k·h is the damping, and
 /// contacts are found from contact_range on.
-ContactPair seen_ahead(ContactPair pair, double h);
+ContactPair with_implicit_range(ContactPair pair, double h);
 
 /// Least distance, in spacings and at rest, of a point and a triangle's corners for them to touch within one
 /// body.

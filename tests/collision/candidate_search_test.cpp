@@ -16,16 +16,9 @@ namespace {
 using V = Vector<double>;
 using Contact = ContactSearch<double>;
 using test::cube_of;
+using test::random_vector;
 using test::spacing;
-
-V random_vector(std::mt19937& random, double size) {
-  std::normal_distribution<double> some(0.0, size);
-  return {some(random), some(random), some(random)};
-}
-
-Contact::Particles at(const Field<double>& x, const Field<double>& v) {
-  return {components(x.data()), components(v.data()), 3};
-}
+using test::view_of_fields;
 
 /// A candidate by its definition.
 bool holds(const Field<double>& x, const SurfaceTriangle& triangle, const V& P, double margin) {
@@ -90,7 +83,7 @@ Candidates by_brute_force(const Model& model, const Field<double>& x) {
   const physics::PairTable<double> table(model.contact, surfaces.bodies, 0.0);
   Candidates found;
   physics::for_each_candidate<double>(
-      model, surfaces, table, at(x, x),
+      model, surfaces, table, view_of_fields(x, x),
       [&](std::uint32_t point, std::uint32_t, std::uint32_t triangle) { found.emplace(point, triangle); });
   return found;
 }
@@ -118,7 +111,7 @@ TEST(CandidateSearch, FindsTheCandidatesOfTheDefinition) {
         x.col(i) += random_vector(random, together > 0.0 ? 1e-3 : 0.01) + towards + together * V(1, 2, -1) +
                     own * V(std::sin(body), std::cos(2.0 * body), std::sin(3.0 * body));
       }
-      contact.begin_step(0, at(x, v));
+      contact.begin_step(0, view_of_fields(x, v));
       const Candidates found = found_by(contact);
       ASSERT_EQ(found, by_definition(model, x)) << "step " << step << ", together " << together;
       ASSERT_EQ(found, by_brute_force(model, x)) << "step " << step << ", together " << together;
@@ -145,7 +138,7 @@ TEST(CandidateSearch, FindsTrianglesInReachOfAClothAlone) {
     const Model model = test::build(settings);
     Contact contact(model);
     const Field<double> x = field<double>(model.initial_position.list(0, model.particle_count()));
-    contact.begin_step(0, at(x, x));
+    contact.begin_step(0, view_of_fields(x, x));
     const Candidates found = found_by(contact);
     EXPECT_EQ(found, by_definition(model, x));
     EXPECT_EQ(found, by_brute_force(model, x));

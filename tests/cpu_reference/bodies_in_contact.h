@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "aspic/analysis.h"
@@ -65,6 +66,15 @@ inline ModelSettings weightless_touching(std::vector<CubeSettings> cubes,
   return settings;
 }
 
+inline physics::Vector<double> random_vector(std::mt19937& random, double size) {
+  std::normal_distribution<double> some(0.0, size);
+  return {some(random), some(random), some(random)};
+}
+inline physics::ParticleView<const double> view_of_fields(const physics::Field<double>& x,
+                                                          const physics::Field<double>& v) {
+  return {physics::components(x.data()), physics::components(v.data()), 3};
+}
+
 /// Mean place and velocity of a body's particles.
 inline Vec3 mean(const std::vector<Vec3>& of, const Body& body) {
   Vec3 sum;
@@ -80,8 +90,7 @@ struct Touching {
 inline Touching contacts_in(const Model& model, const State& state) {
   reference::BodyContact<double> contact(model);
   const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
-  const reference::BodyContact<double>::Particles at = {physics::components(x.data()),
-                                                        physics::components(v.data()), 3};
+  const auto at = view_of_fields(x, v);
   Touching found;
   if (!contact.begin_step(state.step, at) || !contact.find(at)) return found;
   for (const auto& touch : contact.contacts()) {

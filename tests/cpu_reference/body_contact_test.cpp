@@ -271,14 +271,14 @@ double deepest_edge(const Model& model, const State& state) {
       for (int j = 0; j <= 16; ++j) {
         const Vector<double> P =
             (1 - j / 16.0) * x(all.points[p].carrier[0]) + j / 16.0 * x(all.points[p].carrier[1]);
-        std::vector<ClosestPoint<double>> sights;
+        std::vector<ClosestPoint<double>> closest;
         for (std::uint32_t t = other.first_triangle; t < other.first_triangle + other.triangle_count; ++t) {
           const auto& corner = all.triangles[t].corner;
           const Vector<double> A = x(corner[0]), B = x(corner[1]), C = x(corner[2]);
-          sights.push_back(sight_of<double>(t, 0, face_of<double>(A, B, C), P));
+          closest.push_back(closest_point<double>(t, 0, face_of<double>(A, B, C), P));
         }
         const auto* seen =
-            nearest_of<double>(sights, 2e-6 * S, [](const ClosestPoint<double>&) { return true; });
+            nearest_of<double>(closest, 2e-6 * S, [](const ClosestPoint<double>&) { return true; });
         deepest = std::min(deepest, seen->z < 0 ? -seen->L : seen->L);
       }
     }

@@ -16,16 +16,9 @@ using V = Vector<double>;
 using Contact = BodyContact<double>;
 using test::cube_of;
 using test::eps;
+using test::random_vector;
 using test::spacing;
-
-V random_vector(std::mt19937& random, double size) {
-  std::normal_distribution<double> some(0.0, size);
-  return {some(random), some(random), some(random)};
-}
-
-Contact::Particles at(const Field<double>& x, const Field<double>& v) {
-  return {components(x.data()), components(v.data()), 3};
-}
+using test::view_of_fields;
 
 // Against the definition: no place of the triangle is nearer, and e is along the normal in a face, across the
 // edge on an edge.
@@ -56,7 +49,7 @@ TEST(NearestPlace, IsNearestOfAll) {
 TEST(ClosedGap, ReachesOutsideAndFartherInside) {
   const V A(0, 0, 0), B(1, 0, 0), C(0, 0, -1);  // faces up
   const auto gap = [&](const V& P) {
-    return closed_gap<double>(sight_of<double>(0, 0, face_of<double>(A, B, C), P), 0.1, 1.0);
+    return closed_gap<double>(closest_point<double>(0, 0, face_of<double>(A, B, C), P), 0.1, 1.0);
   };
   EXPECT_EQ(gap({0.2, 0.05, -0.2})->d, 0.05);
   EXPECT_EQ(gap({0.2, 0.05, -0.2})->n, V(0, 1, 0));
@@ -73,7 +66,7 @@ TEST(ClosedGap, ReachesOutsideAndFartherInside) {
 TEST(OpenGap, PushesToTheSideWhereThePointIs) {
   const V A(0, 0, 0), B(1, 0, 0), C(0, 0, -1);
   const auto gap = [&](const V& P) {
-    return open_gap<double>(sight_of<double>(0, 0, face_of<double>(A, B, C), P), 0.25);
+    return open_gap<double>(closest_point<double>(0, 0, face_of<double>(A, B, C), P), 0.25);
   };
   EXPECT_EQ(gap({0.2, -0.05, -0.2})->d, 0.05);
   EXPECT_EQ(gap({0.2, -0.05, -0.2})->n, V(0, -1, 0));
@@ -85,13 +78,13 @@ TEST(OpenGap, PushesToTheSideWhereThePointIs) {
 TEST(NearestOf, TiesGoToTheOneStraightInFront) {
   const V A(0, 0, 0), B(1, 0, 0), C(1, 0, -1), D(1, -1, 0), P(0.5, 0.06, 0.02);
   const auto of = [&](std::uint32_t n, const V& a, const V& b, const V& c) {
-    return sight_of<double>(n, n, face_of<double>(a, b, c), P);
+    return closest_point<double>(n, n, face_of<double>(a, b, c), P);
   };
   const auto all = [](const ClosestPoint<double>&) { return true; };
-  const std::vector<ClosestPoint<double>> sights = {of(0, A, D, B), of(1, A, B, C)};
+  const std::vector<ClosestPoint<double>> closest = {of(0, A, D, B), of(1, A, B, C)};
   const std::vector<ClosestPoint<double>> other = {of(1, A, B, C), of(0, A, D, B)};
-  EXPECT_NEAR(sights[0].L, sights[1].L, 1e-12);
-  EXPECT_EQ(nearest_of<double>(sights, 1e-6, all)->triangle, 1u);
+  EXPECT_NEAR(closest[0].L, closest[1].L, 1e-12);
+  EXPECT_EQ(nearest_of<double>(closest, 1e-6, all)->triangle, 1u);
   EXPECT_EQ(nearest_of<double>(other, 1e-6, all)->triangle, 1u);
 }
 
@@ -137,15 +130,15 @@ TEST_F(Poses, PushIsTheGradientOfItsEnergy) {
   int poses = 0, compared = 0;
   while (poses < 1000) {
     Field<double> x = pose(random);
-    contact.begin_step(0, at(x, v));
-    if (!contact.find(at(x, v))) continue;
+    contact.begin_step(0, view_of_fields(x, v));
+    if (!contact.find(view_of_fields(x, v))) continue;
     ++poses;
     const auto contacts = [&] { return contact.contacts().size(); };
     const std::size_t count = contacts();
     const std::vector<std::uint32_t> touched(contact.particles().begin(), contact.particles().end());
     std::vector<V> f(touched.size(), V::Zero());
     contact.add_forces(
-        at(x, v), [](std::uint32_t) { return 1.0; }, f);
+        view_of_fields(x, v), [](std::uint32_t) { return 1.0; }, f);
     V sum = V::Zero(), turn = V::Zero();
     for (std::size_t n = 0; n < f.size(); ++n) {
       sum += f[n];
@@ -161,7 +154,7 @@ TEST_F(Poses, PushIsTheGradientOfItsEnergy) {
       for (const int way : {0, 1}) {
         Field<double> moved = x;
         moved(axis, touched[n]) += way ? e : -e;
-        contact.find(at(moved, v));
+        contact.find(view_of_fields(moved, v));
         same = same && contacts() == count;
         energy[static_cast<std::size_t>(way)] = contact.energy();
       }
@@ -184,14 +177,14 @@ TEST_F(Poses, FrictionTakesEnergyAndKeepsMomentum) {
     const Field<double> x = pose(random);
     Field<double> v(3, 54);
     for (Eigen::Index i = 0; i < 54; ++i) v.col(i) = random_vector(random, 0.3);
-    contact.begin_step(0, at(x, v));
-    if (!contact.find(at(x, v))) continue;
+    contact.begin_step(0, view_of_fields(x, v));
+    if (!contact.find(view_of_fields(x, v))) continue;
     ++poses;
     const double h = model.simulation.timestep;
     std::vector<V> f(contact.particles().size(), V::Zero());
     std::vector<V> before = f;
     contact.add_forces(
-        at(x, v), [](std::uint32_t) { return 1.0; }, f);
+        view_of_fields(x, v), [](std::uint32_t) { return 1.0; }, f);
     spread<double>(contact.contacts(), before,
                    [](const ContactPoint<double>& t) { return V(t.normal_force * t.n); });
     double gained = 0.0, pushes = 0.0;

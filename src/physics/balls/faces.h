@@ -153,7 +153,7 @@ class BallsOnFaces {
   /// Looks at the triangles of a body nearer to a ball at P than `limit` [m].
   void find_nearest(std::uint32_t b, const Vector<T>& P, T limit, const FacesOfBody& body,
                     const ParticleView<T>& particles) {
-    sights_.clear();
+    closest_.clear();
     const T far = T(1.01) * limit;
     std::size_t box = first_box(body);
     for (std::uint32_t first = 0; first < body.triangle_count; first += face_block, ++box) {
@@ -162,7 +162,7 @@ class BallsOnFaces {
         look(body.first_triangle + t, P, limit, far, particles);
     }
     const ClosestPoint<T>* const nearest =
-        nearest_of<T>(sights_, T(2e-6) * limit, [](const ClosestPoint<T>&) { return true; });
+        nearest_of<T>(closest_, T(2e-6) * limit, [](const ClosestPoint<T>&) { return true; });
     if (nearest) add(b, *nearest, body.closed, limit);
   }
   std::size_t first_box(const FacesOfBody& body) const {
@@ -178,8 +178,8 @@ class BallsOnFaces {
     const Face<T> face = face_of<T>(particles.position(corner[0]), particles.position(corner[1]),
                                     particles.position(corner[2]));
     if (!face.real) return;
-    const ClosestPoint<T> seen = sight_of<T>(t, 0, face, P);
-    if (seen.L < limit) sights_.push_back(seen);
+    const ClosestPoint<T> seen = closest_point<T>(t, 0, face, P);
+    if (seen.L < limit) closest_.push_back(seen);
   }
 
   void add(std::uint32_t ball, const ClosestPoint<T>& seen, bool closed, T limit) {
@@ -262,7 +262,7 @@ class BallsOnFaces {
 
   BallFaces faces_;
   std::vector<Box<T>> boxes_;  // of blocks
-  std::vector<ClosestPoint<T>> sights_;
+  std::vector<ClosestPoint<T>> closest_;
   std::vector<FacePair<T>> pairs_;
   std::vector<std::uint32_t> named_;                        // particles, ascending
   std::vector<std::uint32_t> ball_pairs_, particle_pairs_;  // that act

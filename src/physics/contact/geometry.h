@@ -104,8 +104,8 @@ struct ClosestPoint {
 
 /// Of a face that has an area.
 template <class T>
-ClosestPoint<T> sight_of(std::uint32_t triangle, std::uint32_t side, const Face<T>& face,
-                         const Vector<T>& P) {
+ClosestPoint<T> closest_point(std::uint32_t triangle, std::uint32_t side, const Face<T>& face,
+                              const Vector<T>& P) {
   ClosestPoint<T> seen;
   seen.triangle = triangle;
   seen.side = side;
@@ -130,15 +130,15 @@ T straightness(const ClosestPoint<T>& seen) {
 /// triangles that share the nearest edge have the same distance but for rounding; the one that faces the
 /// point knows its inside from its outside.
 template <class T, class Sights, class Among>
-const ClosestPoint<T>* nearest_of(const Sights& sights, T tie, const Among& among) {
+const ClosestPoint<T>* nearest_of(const Sights& closest, T tie, const Among& among) {
   const ClosestPoint<T>* least = nullptr;
-  for (const ClosestPoint<T>& seen : sights)
+  for (const ClosestPoint<T>& seen : closest)
     if (among(seen) && (!least || seen.L < least->L)) least = &seen;
   if (!least) return nullptr;
   const T far = least->L + tie;
   const ClosestPoint<T>* best = nullptr;
   T straight = T(-1);
-  for (const ClosestPoint<T>& seen : sights) {
+  for (const ClosestPoint<T>& seen : closest) {
     if (!(among(seen) && seen.L <= far)) continue;
     const T here = straightness<T>(seen);
     if (here > straight || (here == straight && seen.L < best->L)) {

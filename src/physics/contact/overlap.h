@@ -5,8 +5,10 @@
 #include <tuple>
 #include <vector>
 
+#include "model/model.h"
 #include "physics/contact/law.h"
 #include "physics/contact/pairs.h"
+#include "physics/particle_view.h"
 
 namespace aspic::physics {
 
@@ -24,10 +26,15 @@ class InitialOverlaps {
   using Overlap = InitialOverlap<T>;
 
   InitialOverlaps() = default;
-  /// Of the contacts in the initial state, found in double precision.
-  InitialOverlaps(const ContactSurfaces& surfaces, std::span<const ContactPoint<double>> contacts) {
+  /// `search`: finds contacts in double precision, with the depth of initial overlaps.
+  template <class Search>
+  InitialOverlaps(const Model& model, const ContactSurfaces& surfaces, Search&& search) {
+    const Field<double> x = field<double>(model.initial_position.list(0, model.particle_count()));
+    const Field<double> v = Field<double>::Zero(3, x.cols());
+    const ParticleView<const double> at = {components(x.data()), components(v.data()), 3};
+    if (!search.begin_step(0, at) || !search.find(at)) return;
     std::vector<InitialOverlap<double>> exact;
-    for (const ContactPoint<double>& contact : contacts) {
+    for (const ContactPoint<double>& contact : search.contacts()) {
       const std::uint32_t body = surfaces.body_of_triangle(contact.triangle);
       if (exact.empty() || exact.back().point != contact.point || exact.back().body != body)
         exact.push_back({contact.point, body, contact.d});

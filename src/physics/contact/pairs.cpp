@@ -7,13 +7,13 @@ template <class T>
 PairConstants<T> rounded_pair(const ContactSettings& contact, const ContactBody& a, const ContactBody& b,
                               bool same, double ahead_step) {
   const ContactPair exact = contact_pair(contact, a, b, same);
-  const ContactPair pair = ahead_step > 0.0 ? seen_ahead(exact, ahead_step) : exact;
+  const ContactPair pair = ahead_step > 0.0 ? with_implicit_range(exact, ahead_step) : exact;
   return {static_cast<T>(pair.stiffness),
           static_cast<T>(pair.damping),
           static_cast<T>(pair.friction),
           static_cast<T>(pair.spacing),
           static_cast<T>(pair.reach),
-          static_cast<T>(pair.sight),
+          static_cast<T>(pair.range),
           static_cast<T>(pair.depth),
           static_cast<T>(pair.eased_depth),
           static_cast<T>(pair.margin),

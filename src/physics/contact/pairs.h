@@ -16,7 +16,7 @@ struct PairConstants {
   T mu;      ///< μ
   T s;       ///< spacing [m]
   T reach;   ///< ρ [m]
-  T sight;   ///< distance up to which contacts are found [m]: ρ, or more where they are known ahead
+  T range;   ///< distance up to which contacts are found [m]: ρ, or more where they are known ahead
   T depth;   ///< D [m]
   T eased;   ///< the same while bodies are eased apart [m]
   T margin;  ///< by which the boxes of candidates are widened [m]

@@ -19,25 +19,25 @@ bool counts(const Face<T>& face, const PairConstants<T>& pair, const Vector<T>& 
 /// The contacts of a point with one body: calls add(sight, gap) for the first contact, then for those with
 /// other sides, ascending. `sights`: of the triangles that count, ascending; `depth`: D [m].
 template <class T, class Add>
-void select_contacts(const std::vector<ClosestPoint<T>>& sights, const PairConstants<T>& pair, T depth,
+void select_contacts(const std::vector<ClosestPoint<T>>& closest, const PairConstants<T>& pair, T depth,
                      const Add& add) {
   const ClosestPoint<T>* const first =
-      nearest_of<T>(sights, pair.tie, [](const ClosestPoint<T>&) { return true; });
+      nearest_of<T>(closest, pair.tie, [](const ClosestPoint<T>&) { return true; });
   if (!first) return;
-  const auto gap = pair.closed ? closed_gap<T>(*first, pair.sight, depth) : open_gap<T>(*first, pair.sight);
+  const auto gap = pair.closed ? closed_gap<T>(*first, pair.range, depth) : open_gap<T>(*first, pair.range);
   if (gap) add(*first, *gap);
   if (!pair.closed) return;
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   const auto next_side = [&](std::uint32_t least) {
     std::uint32_t side = none;
-    for (const ClosestPoint<T>& seen : sights)
+    for (const ClosestPoint<T>& seen : closest)
       if (seen.side >= least && seen.side != first->side) side = std::min(side, seen.side);
     return side;
   };
   for (std::uint32_t side = next_side(0); side != none; side = next_side(side + 1)) {
     const ClosestPoint<T>& seen =
-        *nearest_of<T>(sights, pair.tie, [&](const ClosestPoint<T>& each) { return each.side == side; });
-    if (straight_in_front<T>(seen, pair.sight)) add(seen, *closed_gap<T>(seen, pair.sight, depth));
+        *nearest_of<T>(closest, pair.tie, [&](const ClosestPoint<T>& each) { return each.side == side; });
+    if (straight_in_front<T>(seen, pair.range)) add(seen, *closed_gap<T>(seen, pair.range, depth));
   }
 }
 
