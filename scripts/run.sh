@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Release and runs aspic with the arguments given here. Without arguments: the window,
-# where there is a display and it could be built, else cube-plane simulated and filmed headless into out/. Builds all programs where the
-# window can be opened and for commands that aspic itself lacks.
+# where there is a display and it could be built, else cube-plane simulated and filmed headless into out/. Builds all programs
+# where the window can be opened, for info, and for commands that other programs have.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -9,7 +9,7 @@ caller=$PWD
 aspic_install run
 target=aspic
 case ${DISPLAY:-}${WAYLAND_DISPLAY:-}:${1:-} in
-  ?*:* | :view | :bench | :report | :sweep | :verify) target=programs ;;
+  ?*:* | :info | :view | :bench | :report | :sweep | :verify) target=programs ;;
 esac
 aspic_build OFF "$target"
 aspic=$aspic_build_dir/aspic

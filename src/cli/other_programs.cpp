@@ -47,11 +47,11 @@ Status execute(const ViewOptions& options) {
 
 Status execute_study(const std::vector<std::string>& arguments) {
   const NotStarted error = become("aspic-studies", arguments);
-  return fail(
-      ErrorCode::io,
-      "{} cannot be started, which has the commands bench, report, sweep and verify: {}. Build it with "
-      "ninja programs.",
-      error.program, std::strerror(error.reason));
+  return fail(ErrorCode::io,
+              "{} cannot be started: {}. It has the commands bench, report, sweep and verify. Run "
+              "scripts/run.sh info "
+              "in the checkout to build it, or install Aspic again.",
+              error.program, std::strerror(error.reason));
 }
 
 }  // namespace aspic::cli
