@@ -5,7 +5,7 @@
 #define ASPIC_BALL_FACE_KERNEL
 #include "compute/ball_blocks.glsl"
 #include "compute/ball_face_blocks.glsl"
-#include "compute/closest_point.glsl"
+#include "compute/terms/closest_point.glsl"
 
 #define NO_TRIANGLE 0xffffffffu
 #define NOTHING_NEAR 3.0e38

@@ -3,7 +3,7 @@
 #include "compute/common.glsl"
 #define ASPIC_BALL_FACE_KERNEL
 #include "compute/ball_blocks.glsl"
-#include "compute/ball_contact.glsl"
+#include "compute/terms/ball_contact.glsl"
 #include "compute/ball_face_blocks.glsl"
 layout(location = LOCATION_BALL_PHASE) uniform uint ball_phase;
 

@@ -4,7 +4,7 @@
 #define ASPIC_BALL_FACE_KERNEL
 #include "compute/ball_blocks.glsl"
 #include "compute/ball_face_blocks.glsl"
-#include "compute/closest_point.glsl"
+#include "compute/terms/closest_point.glsl"
 layout(location = LOCATION_BALL_PHASE) uniform uint ball_phase;
 
 // xyz: normal towards the ball; w: distance.

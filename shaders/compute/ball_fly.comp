@@ -6,9 +6,9 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/ball_blocks.glsl"
-#include "compute/ball_contact.glsl"
-#include "compute/ball_terrain.glsl"
-#include "compute/pull.glsl"
+#include "compute/terms/ball_contact.glsl"
+#include "compute/terms/ball_terrain.glsl"
+#include "compute/terms/pulls.glsl"
 
 layout(std430, binding = BINDING_BALL_BODIES) restrict readonly buffer BallBodies { BallBody bodies[]; };
 

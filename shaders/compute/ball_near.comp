@@ -3,7 +3,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/ball_blocks.glsl"
-#include "compute/ball_contact.glsl"
+#include "compute/terms/ball_contact.glsl"
 layout(location = LOCATION_BALL_KIND) uniform uint sought;
 #define ball_phase BALL_PHASE_BALLS
 #include "compute/ball_pairs.glsl"

@@ -3,7 +3,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/ball_blocks.glsl"
-#include "compute/ball_contact.glsl"
+#include "compute/terms/ball_contact.glsl"
 #include "compute/ball_sums.glsl"
 
 void main() {

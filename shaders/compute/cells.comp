@@ -6,7 +6,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
-#include "compute/link_force.glsl"
+#include "compute/terms/link_force.glsl"
 #include "compute/stage.glsl"
 #include "compute/spring_classes.glsl"
 #include "compute/cells.glsl"

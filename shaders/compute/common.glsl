@@ -1,7 +1,7 @@
 // What every kernel of the solver shares: arithmetic whose order of operations is fixed (docs/determinism.md).
 #include "compute/dispatch.glsl"
 #include "compute/exact.glsl"
-#include "compute/body_force.glsl"
+#include "compute/terms/body_force.glsl"
 
 // (aₓbₓ + a_y b_y) + a_z b_z
 float dot3(vec3 a, vec3 b) {

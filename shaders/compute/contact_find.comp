@@ -6,7 +6,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 
 layout(location = LOCATION_CONTACT_NUMBER) uniform float body_contact_time;
 

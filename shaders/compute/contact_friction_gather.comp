@@ -2,7 +2,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 #include "compute/contact_sums.glsl"
 
 layout(std430, binding = BINDING_OUT_STATE) restrict buffer OutState { Particle out_state[]; };

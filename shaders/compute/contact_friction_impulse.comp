@@ -2,7 +2,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 
 layout(std430, binding = BINDING_START_STATE) restrict readonly buffer StartState { Particle start_state[]; };
 layout(std430, binding = BINDING_CONTACT_VALUES) restrict readonly buffer Values { vec4 values[]; };
@@ -14,7 +14,7 @@ vec3 part(uint i) {
 }
 vec3 end_velocity(uint i) { return values[i].xyz; }
 
-#include "compute/contact_friction.glsl"
+#include "compute/terms/contact_friction.glsl"
 
 void main() {
   uint n = item_index();

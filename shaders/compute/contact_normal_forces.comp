@@ -3,7 +3,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 #include "compute/contact_sums.glsl"
 
 layout(std430, binding = BINDING_START_STATE) restrict readonly buffer StartState { Particle start_state[]; };

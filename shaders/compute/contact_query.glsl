@@ -1,5 +1,5 @@
 // Which of the triangles near a point is the nearest. Expects what compute/contact_points.glsl names.
-#include "compute/closest_point.glsl"
+#include "compute/terms/closest_point.glsl"
 
 #define ANY_SIDE 0xffffffffu
 #define NO_TRIANGLE 0xffffffffu

@@ -6,7 +6,7 @@
 #include "compute/control.glsl"
 #include "compute/bounded.glsl"
 #include "compute/incident.glsl"
-#include "compute/link_force.glsl"
+#include "compute/terms/link_force.glsl"
 #include "compute/stage.glsl"
 #include "compute/neighbour.glsl"
 

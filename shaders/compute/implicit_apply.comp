@@ -4,7 +4,7 @@
 #include "compute/common.glsl"
 #include "compute/implicit.glsl"
 #include "compute/incident.glsl"
-#include "compute/implicit_spring.glsl"
+#include "compute/terms/implicit_springs.glsl"
 #include "compute/reduction.glsl"
 
 vec3 direction(uint j) { return prescribing ? own(OWN_PRESCRIBED, j) : search[j].xyz; }
@@ -22,14 +22,14 @@ vec4 apply(uint i) {
     precise vec3 dv = v - trial[link.other].xyz;
     precise vec3 e = (particle.position.xyz - state(link.other).position.xyz) + time_step * dv;
     SpringJacobian H;
-    linearised(link.spring, e, dv, H);
+    linearized(link.spring, e, dv, H);
     precise vec3 d = p - direction(link.other);
     product += times(H, d);
   }
   for (uint k = 0u; k < pull_count; ++k) {
     if (i != pulls[k].particle) continue;
     SpringJacobian H;
-    linearised_pull(pulls[k], particle.position.xyz, v, H);
+    linearized(pulls[k], particle.position.xyz, v, H);
     product += times(H, p);
   }
 #ifdef ASPIC_BODY_CONTACT

@@ -4,10 +4,10 @@
 #include "compute/common.glsl"
 #include "compute/implicit.glsl"
 #include "compute/incident.glsl"
-#include "compute/pull.glsl"
+#include "compute/terms/pulls.glsl"
 #include "compute/reduction.glsl"
-#include "compute/spring.glsl"
-#include "compute/terrain.glsl"
+#include "compute/terms/springs.glsl"
+#include "compute/terms/terrain.glsl"
 
 #ifdef ASPIC_BODY_CONTACT
 layout(location = LOCATION_CONTACT_COUNT) uniform uint contact_count;  // candidate groups

@@ -2,13 +2,13 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit_control.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 
 layout(std430, binding = BINDING_SEARCH) restrict readonly buffer Search { vec4 search[]; };
 
 vec3 part(uint i) { return vec3(search[i].w); }
 vec3 end_velocity(uint i) { return search[i].xyz; }
-#include "compute/contact_friction.glsl"
+#include "compute/terms/contact_friction.glsl"
 
 void main() {
   uint n = item_index();

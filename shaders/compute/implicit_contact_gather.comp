@@ -2,9 +2,9 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit_control.glsl"
-#include "compute/implicit_spring.glsl"
+#include "compute/terms/implicit_springs.glsl"
 #include "compute/implicit_block.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 #define COUNTS(record) (records[record].answer.w > 0.0 || records[record].turn.w > 0.0)
 #include "compute/contact_sums.glsl"
 

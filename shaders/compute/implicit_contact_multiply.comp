@@ -2,7 +2,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit_control.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 
 layout(std430, binding = BINDING_SEARCH) restrict readonly buffer Search { vec4 search[]; };
 

@@ -3,7 +3,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit_control.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 #include "compute/contact_sums.glsl"
 
 layout(std430, binding = BINDING_SEARCH) restrict buffer Search { vec4 search[]; };

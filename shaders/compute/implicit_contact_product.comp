@@ -2,7 +2,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit_control.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 #define COUNTS(record) (records[record].answer.w > 0.0 || records[record].turn.w > 0.0)
 #include "compute/contact_sums.glsl"
 

@@ -3,7 +3,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit_control.glsl"
-#include "compute/body_contact.glsl"
+#include "compute/terms/body_contact.glsl"
 
 layout(std430, binding = BINDING_TRIAL) restrict readonly buffer Trial { vec4 trial[]; };
 

@@ -6,11 +6,11 @@
 #include "compute/common.glsl"
 #include "compute/implicit.glsl"
 #include "compute/incident.glsl"
-#include "compute/implicit_spring.glsl"
+#include "compute/terms/implicit_springs.glsl"
 #include "compute/implicit_block.glsl"
 #include "compute/reduction.glsl"
-#include "compute/terrain.glsl"
-#include "compute/implicit_ground.glsl"
+#include "compute/terms/terrain.glsl"
+#include "compute/terms/implicit_ground.glsl"
 #include "compute/implicit_judge.glsl"
 
 // What the ground makes of particle p with free velocity v at the trial: its reaction, and the residual R,
@@ -52,13 +52,13 @@ vec4 evaluate(uint i) {
     precise vec3 dv = v - trial[link.other].xyz;
     precise vec3 e = (p.position.xyz - state(link.other).position.xyz) + time_step * dv;
     SpringJacobian H;
-    f += linearised(link.spring, e, dv, H);
+    f += linearized(link.spring, e, dv, H);
     block = with_spring(block, H);
   }
   for (uint k = 0u; k < pull_count; ++k) {
     if (i != pulls[k].particle) continue;
     SpringJacobian H;
-    f += linearised_pull(pulls[k], p.position.xyz, v, H);
+    f += linearized(pulls[k], p.position.xyz, v, H);
     block = with_spring(block, H);
   }
 #ifdef ASPIC_BODY_CONTACT

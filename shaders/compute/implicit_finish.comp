@@ -5,8 +5,8 @@
 #include "compute/implicit.glsl"
 #include "compute/implicit_end.glsl"
 #include "compute/reduction.glsl"
-#include "compute/terrain.glsl"
-#include "compute/implicit_ground.glsl"
+#include "compute/terms/terrain.glsl"
+#include "compute/terms/implicit_ground.glsl"
 
 void finish(uint i) {
   Particle start = state(i);

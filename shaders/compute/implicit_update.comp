@@ -3,7 +3,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit.glsl"
-#include "compute/implicit_spring.glsl"
+#include "compute/terms/implicit_springs.glsl"
 #include "compute/implicit_block.glsl"
 #include "compute/reduction.glsl"
 

@@ -2,7 +2,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
-#include "compute/link_force.glsl"
+#include "compute/terms/link_force.glsl"
 #define BINDING_LENGTHS BINDING_SPRING_LENGTHS
 #include "compute/spring_classes.glsl"
 

@@ -2,8 +2,8 @@
 // the stage of the explicit method (src/model/integrator.h has the formulas), and after the last stage the terrain's
 // response and the watch for divergence. Expects the state blocks below to be bound. With ASPIC_ONE_STAGE the method has
 // one stage, which begins where the step does and leaves no sums.
-#include "compute/pull.glsl"
-#include "compute/terrain.glsl"
+#include "compute/terms/pulls.glsl"
+#include "compute/terms/terrain.glsl"
 
 layout(std430, binding = BINDING_START_STATE) restrict readonly buffer StartState { Particle start_state[]; };
 layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageState { Particle stage_state[]; };

@@ -12,10 +12,6 @@ namespace {
 using Contact = collision::ContactSearch<double>;
 using Vector = physics::Vector<double>;
 
-Vec3 back(const Vector& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 /// Implicit Euler's pushes are those at the end of a step h [s]; of other methods 0.
 double ahead_step(const SimulationSettings& simulation) {
   return row_of(simulation.integrator).staged() ? 0.0 : simulation.timestep;
@@ -43,8 +39,8 @@ void BodyContactForces::find(const SpringFinder& springs, const State& state, co
   if (!contact_->begin_step(state.step, at) || !contact_->find(at)) return;
   std::vector<Vector> before, pushes(contact_->particles().size(), Vector::Zero());
   for (const std::uint32_t p : contact_->particles()) {
-    const ParticleForce f = particle_force(model_, springs, state, p, inputs);
-    before.push_back(physics::rounded<double>(f.gravity + f.drag + f.springs + f.pull));
+    before.push_back(
+        physics::rounded<double>(particle_force(model_, springs, state, p, inputs).without_terrain));
   }
   std::vector<Vector> after = before;
   contact_->add_forces(
@@ -61,7 +57,8 @@ void BodyContactForces::find(const SpringFinder& springs, const State& state, co
     if (!pushed[n]) continue;
     const double size = pushes[n].norm();
     const Vector normal = size > 0.0 ? Vector(pushes[n] / size) : Vector(Vector::Zero());
-    forces_.push_back({contact_->particles()[n], back(normal), back(after[n] - before[n])});
+    forces_.push_back(
+        {contact_->particles()[n], physics::vec3_of(normal), physics::vec3_of(after[n] - before[n])});
   }
 }
 

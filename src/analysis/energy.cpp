@@ -9,6 +9,7 @@
 #include "collision/contact_search.h"
 #include "model/counts.h"
 #include "model/springs.h"
+#include "physics/springs/law.h"
 
 namespace aspic {
 
@@ -70,13 +71,12 @@ Measures Meter::measure(const State& state, const Inputs& inputs) {
   const Model& model = parts_->model;
   Measures m = measure_motion(model, state);
   const std::vector<double> r = rest_lengths(model, state.step, 0.0, inputs.channels);
-  for (const Spring& spring : springs_of(model)) {
-    const SpringClass& c = model.spring_classes[spring.spring_class];
-    const double stretch =
-        length(state.position[spring.a] - state.position[spring.b]) - r[spring.spring_class];
-    if (c.cord && stretch < 0.0) continue;
-    m.elastic += 0.5 * c.stiffness * stretch * stretch;
-  }
+  std::vector<physics::SpringConstants<double>> classes(model.spring_classes.begin(),
+                                                        model.spring_classes.end());
+  for (std::size_t n = 0; n < classes.size(); ++n) classes[n].r = r[n];
+  for (const Spring& spring : springs_of(model))
+    m.elastic += physics::spring_energy(classes[spring.spring_class],
+                                        length(state.position[spring.a] - state.position[spring.b]));
   if (has_body_contact(model)) {
     m.contact = parts_->push_energy(state);
     m.elastic += *m.contact;

@@ -20,7 +20,6 @@ std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder&
   const physics::ContactConstants<double> constants(model);
   std::vector<Ground<double>> grounds(model.terrain.begin(), model.terrain.end());
   for (Ground<double>& ground : grounds) ground.begin_step(model.simulation.timestep, state.step);
-  const auto back = [](const Vector& a) { return Vec3{a.x(), a.y(), a.z()}; };
   std::vector<ParticleContact> contacts;
   const std::span<const BodyContactForce> touched =
       bodies ? bodies->forces() : std::span<const BodyContactForce>();
@@ -37,12 +36,13 @@ std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder&
       const Ground<double>& ground = grounds[k];
       if (!(physics::distance<double>(ground, ground.start, x) < constants.epsilon)) continue;
       if (!f) {
-        const ParticleForce force = particle_force(model, springs, state, i, inputs, bodies);
-        f = physics::rounded<double>(force.gravity + force.drag + force.springs + force.pull + force.bodies);
+        f = physics::rounded<double>(
+            particle_force(model, springs, state, i, inputs, bodies).without_terrain);
       }
       const Vector before = *f;
       f = with_contact(model, constants, ground, w, x, physics::rounded<double>(state.velocity[i]), before);
-      contacts.push_back({i, k, back(physics::gap<double>(ground, ground.start, x).n), back(*f - before)});
+      contacts.push_back({i, k, physics::vec3_of(physics::gap<double>(ground, ground.start, x).n),
+                          physics::vec3_of(*f - before)});
     }
   }
   return contacts;

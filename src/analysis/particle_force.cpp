@@ -9,7 +9,7 @@
 #include "model/inputs.h"
 #include "model/springs.h"
 #include "physics/body_force.h"
-#include "physics/springs/law.h"
+#include "physics/pulls/law.h"
 
 namespace aspic {
 namespace {
@@ -28,8 +28,31 @@ std::vector<Spring> of_lattice(const Body& body, std::uint32_t particle) {
   return found;
 }
 
-SpringClass spring_of(const Pull& pull) {
-  return {SpringType::structural, pull.stiffness, pull.damping, 0.0, false};
+using Vector = physics::Vector<double>;
+
+Vector exact(const Vec3& v) {
+  return physics::rounded<double>(v);
+}
+
+/// Gravity and drag on a particle or ball; returns their sum.
+Vector add_body_force(const Model& model, double mass, const Vector& v, ParticleForce& force) {
+  const Vector sum = physics::BodyForce<double>(model).at(mass, v);
+  force.gravity = mass * model.simulation.gravity;
+  force.drag = physics::vec3_of(sum) - force.gravity;
+  return sum;
+}
+
+/// Adds the pulls on a particle or ball to `net`.
+void add_pulls(const Inputs& inputs, bool ball, std::uint32_t index, const Vector& x, const Vector& v,
+               ParticleForce& force, Vector& net) {
+  Vector sum = Vector::Zero();
+  for (const Pull& pull : inputs.pulls) {
+    if (pull.ball != ball || pull.particle != index) continue;
+    const Vector f = physics::pull_force<double>(physics::PullConstants<double>(pull), x, v);
+    sum += f;
+    net += f;
+  }
+  force.pull = physics::vec3_of(sum);
 }
 
 }  // namespace
@@ -52,44 +75,30 @@ std::vector<Spring> SpringFinder::of(const Model& model, std::uint32_t particle)
 
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
                              std::uint32_t particle, const Inputs& inputs, const BodyContactForces* bodies) {
-  using Vector = physics::Vector<double>;
   assert(check_sizes(model, state) && particle < model.particle_count());
-  const auto exact = [](const Vec3& v) { return physics::rounded<double>(v); };
-  const auto back = [](const Vector& v) { return Vec3{v.x(), v.y(), v.z()}; };
   const Vector x = exact(state.position[particle]), v = exact(state.velocity[particle]);
   ParticleForce force;
-  force.gravity = model.mass[particle] * model.simulation.gravity;
-  const Vector body = physics::BodyForce<double>(model).at(model.mass[particle], v);
-  force.drag = back(body) - force.gravity;
-  Vector net = body, sum = Vector::Zero();
+  Vector net = add_body_force(model, model.mass[particle], v, force), sum = Vector::Zero();
   const std::vector<double> lengths = rest_lengths(model, state.step, 0.0, inputs.channels);
-  const auto pulled = [&](const SpringClass& spring, const Vec3& other_x, const Vec3& other_v) -> Vector {
-    return physics::spring_force<double>(physics::SpringConstants<double>(spring), x, v, exact(other_x),
-                                         exact(other_v));
-  };
   for (const Spring& spring : springs.of(model, particle)) {
     const std::uint32_t other = spring.a == particle ? spring.b : spring.a;
     SpringClass now = model.spring_classes[spring.spring_class];
     now.rest_length = lengths[spring.spring_class];
-    const Vector f = pulled(now, state.position[other], state.velocity[other]);
+    const Vector f =
+        physics::spring_force<double>(physics::SpringConstants<double>(now), x - exact(state.position[other]),
+                                      v - exact(state.velocity[other]));
     sum += f;
     net += f;
   }
-  force.springs = back(sum);
-  Vector pulls = Vector::Zero();
-  for (const Pull& pull : inputs.pulls) {
-    if (pull.ball || pull.particle != particle) continue;
-    const Vector f = pulled(spring_of(pull), pull.anchor, {});
-    pulls += f;
-    net += f;
-  }
-  force.pull = back(pulls);
+  force.springs = physics::vec3_of(sum);
+  add_pulls(inputs, false, particle, x, v, force, net);
   if (bodies) {
     force.bodies = bodies->on(particle);
     net += exact(force.bodies);
   }
+  force.without_terrain = physics::vec3_of(net);
   const double w = inverse_mass_of(model, inputs, particle);
-  force.applied = back(net);
+  force.applied = physics::vec3_of(net);
   if (w == 0.0) {
     force.pin = -1.0 * force.applied;
     return force;
@@ -101,27 +110,27 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
     ground.begin_step(model.simulation.timestep, state.step);
     net = with_contact(model, constants, ground, w, x, v, net);
   }
-  force.contact = back(net - before);
-  force.net = back(net);
+  force.contact = physics::vec3_of(net - before);
+  force.net = physics::vec3_of(net);
   if (model.contact.model == ContactModel::course) force.applied = force.net;
   return force;
 }
 
 ParticleForce ball_force(const Model& model, const State& state, std::uint32_t ball, const Inputs& inputs) {
   assert(check_sizes(model, state) && ball < model.ball_count());
+  const Vector x = exact(state.ball_position[ball]), v = exact(state.ball_velocity[ball]);
   ParticleForce force;
-  force.gravity = model.balls[ball].mass * model.simulation.gravity;
-  force.drag = (-model.simulation.drag * model.balls[ball].mass) * state.ball_velocity[ball];
-  for (const Pull& pull : inputs.pulls) {
-    if (!pull.ball || pull.particle != ball) continue;
-    const auto exact = [](const Vec3& v) { return physics::rounded<double>(v); };
-    const physics::Vector<double> f = physics::spring_force<double>(
-        physics::SpringConstants<double>(spring_of(pull)), exact(state.ball_position[ball]),
-        exact(state.ball_velocity[ball]), exact(pull.anchor), exact({}));
-    force.pull = force.pull + Vec3{f.x(), f.y(), f.z()};
-  }
-  force.net = force.applied = force.gravity + force.drag + force.pull;
+  Vector net = add_body_force(model, model.balls[ball].mass, v, force);
+  add_pulls(inputs, true, ball, x, v, force, net);
+  force.net = force.applied = force.without_terrain = physics::vec3_of(net);
   return force;
+}
+
+Vec3 external_force(const ParticleForce& force) {
+  Vec3 sum;
+  for (const ForceRow& row : force_rows)
+    if (row.external) sum = sum + force.*row.force;
+  return sum;
 }
 
 }  // namespace aspic

@@ -7,6 +7,8 @@
 #include "model/counts.h"
 #include "model/inputs.h"
 #include "model/springs.h"
+#include "physics/body_force.h"
+#include "physics/pulls/law.h"
 
 namespace aspic {
 namespace {
@@ -21,21 +23,22 @@ void add_springs(const Model& model, const State& state, const Inputs& inputs, S
   for (const Spring& s : springs_of(model)) {
     const SpringClass& c = model.spring_classes[s.spring_class];
     const Vec3 e = state.position[s.a] - state.position[s.b];
-    const double L = length(e), r = lengths[s.spring_class];
-    const bool acts = L > 0.0 && !(c.cord && L < r);
-    const double tension =
-        acts ? c.stiffness * (L - r) + c.damping * dot(state.velocity[s.a] - state.velocity[s.b], e) / L
-             : 0.0;
-    q.strain.push_back(r > 0.0 ? L / r - 1.0 : 0.0);
-    q.tension.push_back(tension);
+    const double r = lengths[s.spring_class];
+    physics::SpringConstants<double> now(c);
+    now.r = r;
+    const physics::SpringTension<double> at(
+        now, physics::rounded<double>(e),
+        physics::rounded<double>(state.velocity[s.a] - state.velocity[s.b]));
+    q.strain.push_back(r > 0.0 ? at.L / r - 1.0 : 0.0);
+    q.tension.push_back(at.s);
     if (actuated) q.actuation.push_back(c.rest_length > 0.0 ? r / c.rest_length - 1.0 : 0.0);
     for (const std::uint32_t end : {s.a, s.b}) {
       q.mean_strain[end] += std::abs(q.strain.back());
       if (actuated) q.mean_actuation[end] += q.actuation.back();
       ++ending[end];
     }
-    if (tension == 0.0) continue;
-    const Vec3 on_b = (tension / L) * e;
+    if (at.s == 0.0) continue;
+    const Vec3 on_b = (at.s * at.q) * e;
     q.force[s.a] = q.force[s.a] - on_b;
     q.force[s.b] = q.force[s.b] + on_b;
   }
@@ -52,18 +55,20 @@ StateQuantities quantities_of(const Model& model, const State& state, const Inpu
   assert(check_sizes(model, state));
   StateQuantities q;
   const std::uint32_t count = model.particle_count();
+  const physics::BodyForce<double> body_force(model);
   for (std::uint32_t i = 0; i < count; ++i) {
     q.speed.push_back(length(state.velocity[i]));
-    q.force.push_back(model.mass[i] * (model.simulation.gravity - model.simulation.drag * state.velocity[i]));
+    q.force.push_back(
+        physics::vec3_of(body_force.at(model.mass[i], physics::rounded<double>(state.velocity[i]))));
   }
   add_springs(model, state, inputs, q);
   for (const Pull& pull : inputs.pulls) {
     if (pull.ball) continue;
-    const Vec3 e = state.position[pull.particle] - pull.anchor;
-    const double L = length(e);
-    if (L == 0.0) continue;
-    const double strength = pull.stiffness * L + pull.damping * dot(state.velocity[pull.particle], e) / L;
-    q.force[pull.particle] = q.force[pull.particle] - (strength / L) * e;
+    q.force[pull.particle] =
+        q.force[pull.particle] +
+        physics::vec3_of(physics::pull_force<double>(
+            physics::PullConstants<double>(pull), physics::rounded<double>(state.position[pull.particle]),
+            physics::rounded<double>(state.velocity[pull.particle])));
   }
   q.contact_force.resize(count);
   q.contact.resize(count);

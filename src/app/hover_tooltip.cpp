@@ -76,13 +76,9 @@ Box particle_readout(const Gui& gui, const PlaybackSession& simulation, const Ho
     if (h.ball) row("ω", h.angular_velocity, "rad/s", components);
     // What a ball touches acts on it by impulses.
     row(h.ball && !h.contact.empty() ? "f without contact" : "f", f.net, "N", components);
-    row("  gravity", f.gravity, "N", components);
-    if (f.drag != Vec3{}) row("  drag", f.drag, "N", components);
-    if (!h.ball) row("  springs", f.springs, "N", components);
-    if (f.pull != Vec3{}) row("  hand", f.pull, "N", components);
-    if (f.bodies != Vec3{}) row("  bodies", f.bodies, "N", components);
-    if (f.contact != Vec3{}) row("  contact", f.contact, "N", components);
-    if (f.pin != Vec3{}) row("  pin", f.pin, "N", components);
+    for (const ForceRow& part : force_rows)
+      if (f.*part.force != Vec3{})
+        row(fmt::format("  {}", part.name).c_str(), f.*part.force, "N", components);
     ImGui::EndTable();
   }
   if (h.ball)

@@ -190,9 +190,7 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
 void ExplicitSteps::run(Task& task, const StageMove& stage) {
   alignas(64) float f[3][piece_size + slice];
   const Forces forces = {{f[0], f[1], f[2]}};
-  const Vector g = dynamics_.body_force().gravity;
-  const ForceInput input = {
-      stage.at, mass_.data(), {g.x(), g.y(), g.z()}, dynamics_.body_force().drag, arithmetic_};
+  const ForceInput input = {stage.at, mass_.data(), &dynamics_.body_force(), arithmetic_};
   const bool near = near_terrain(*model_, task.box);
   if (stage.at == stage.start) find_resting(task, stage);
   if (in_contact_) task.kept = first_touched(task);
@@ -334,8 +332,7 @@ void ExplicitSteps::pull(const StageMove& stage, Range range, const Forces& forc
     if (i - range.first >= range.count) continue;
     put_force(forces, i - range.first,
               force_at(forces, i - range.first) +
-                  physics::spring_force<float>(pull.spring, vector_of(stage.at->x, i),
-                                               vector_of(stage.at->v, i), pull.anchor, Vector::Zero()));
+                  physics::pull_force<float>(pull, vector_of(stage.at->x, i), vector_of(stage.at->v, i)));
   }
 }
 

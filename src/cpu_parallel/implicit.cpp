@@ -91,9 +91,8 @@ float ImplicitEuler::sum_of_blocks() const {
   return physics::tree_sum(sums_);
 }
 
-Linearisation ImplicitEuler::at(const VectorArray& v, float h) const {
-  const Vector g = dynamics_.body_force().gravity;
-  return {&start_->x, &v, mass_.data(), {g.x(), g.y(), g.z()}, dynamics_.body_force().drag, h};
+Linearization ImplicitEuler::at(const VectorArray& v, float h) const {
+  return {&start_->x, &v, mass_.data(), &dynamics_.body_force(), h};
 }
 
 void ImplicitEuler::begin_block(Block& block) {
@@ -104,7 +103,7 @@ void ImplicitEuler::begin_block(Block& block) {
     clearance_[i] = clearance(parallel::vector_of(start_->x, i));
 }
 
-/// The course model's contact force at the step's start. A step of no length linearises there.
+/// The course model's contact force at the step's start. A step of no length linearizes there.
 void ImplicitEuler::hold_contact_force(const Block& block) {
   const Range& range = block.range;
   if (!block.near) {
@@ -125,22 +124,21 @@ void ImplicitEuler::hold_contact_force(const Block& block) {
 }
 
 /// Springs and pulls, at the trial velocity and with the step of `at`.
-void ImplicitEuler::forces(const Block& block, const Linearisation& at, BlockForces& out) {
+void ImplicitEuler::forces(const Block& block, const Linearization& at, BlockForces& out) {
   for (const Segment& segment : block.segments) {
     const std::size_t n = segment.first - block.range.first;
-    LinearisedForces to = {from(out.f, n), {}};
+    LinearizedForces to = {from(out.f, n), {}};
     for (std::size_t c = 0; c < 6; ++c) to.block[c] = out.diagonal[c].of + n;
     with_springs(springs_[segment.body],
-                 [&](const auto& springs) { linearise(springs, jacobians_[segment.body], at, segment, to); });
+                 [&](const auto& springs) { linearize(springs, jacobians_[segment.body], at, segment, to); });
   }
   for (std::size_t k = 0; k < dynamics_.pulls().size(); ++k) {
     const physics::PullConstants<float>& pull = dynamics_.pulls()[k];
     const auto i = static_cast<std::size_t>(pull.particle);
     const std::size_t n = i - block.range.first;
     if (n >= block.range.count) continue;
-    const Vector v = parallel::vector_of(*at.v, i);
-    const Vector e = (parallel::vector_of(*at.x, i) - pull.anchor) + at.h * v;
-    const auto [f, H] = physics::linearised<float>(pull.spring, at.h, e, v);
+    const auto [f, H] =
+        physics::linearized<float>(pull, at.h, parallel::vector_of(*at.x, i), parallel::vector_of(*at.v, i));
     set(out.f, n, vector_of(out.f, n) + f);
     add(out.diagonal, n, H);
     pull_jacobian_[k] = H;
@@ -160,7 +158,7 @@ reference::Trial<float> ImplicitEuler::start() {
   return evaluate();
 }
 
-/// Of particles in ascending order: springs are evaluated block by block. A step of no length linearises
+/// Of particles in ascending order: springs are evaluated block by block. A step of no length linearizes
 /// there.
 ImplicitBodyContact::Force ImplicitEuler::start_force() {
   return [this, of = std::make_shared<BlockForces>(), known = blocks_.size()](std::uint32_t i) mutable {

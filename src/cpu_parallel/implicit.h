@@ -60,11 +60,11 @@ class ImplicitEuler final : public Steps {
   void cut_into_blocks();
   template <class Task>
   void for_each_block(const Task& task);
-  Linearisation at(const VectorArray& v, float h) const;
+  Linearization at(const VectorArray& v, float h) const;
   void begin_block(Block& block);
   void hold_contact_force(const Block& block);
   float clearance(const Vector& x) const;
-  void forces(const Block& block, const Linearisation& at, BlockForces& out);
+  void forces(const Block& block, const Linearization& at, BlockForces& out);
   ResidualShare evaluate_block(Block& block);
   void meet_ground(Block& block, const BlockVectors& free, const BlockNumbers& meets, BlockVectors& R,
                    std::array<BlockNumbers, 6>& diagonal);

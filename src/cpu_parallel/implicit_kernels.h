@@ -7,6 +7,7 @@
 
 #include "cpu_parallel/particles.h"
 #include "cpu_parallel/springs.h"
+#include "physics/body_force.h"
 
 namespace aspic::parallel {
 
@@ -18,14 +19,13 @@ struct Segment {
   std::size_t first;  ///< among all particles
 };
 
-/// What every spring needs to be linearised: the step's start, the trial velocity there, and the step.
-struct Linearisation {
+/// What every spring needs to be linearized: the step's start, the trial velocity there, and the step.
+struct Linearization {
   const VectorArray* x;  ///< [m]
   const VectorArray* v;  ///< v' [m/s]
   const float* mass;     ///< [kg]
-  float gravity[3];      ///< [m/s²]
-  float drag;            ///< γ [1/s]
-  float h;               ///< [s]
+  const physics::BodyForce<float>* body_force;
+  float h;  ///< [s]
 };
 
 /// −h·∂f/∂v' of a body's springs: H·d = across·d + (along − across)·n(n·d). `along` is the springs' own; n
@@ -65,20 +65,20 @@ class Jacobians {
 
 /// Force on each particle of a segment [N], without contact and pull, and the diagonal block of the matrix:
 /// xx, yy, zz, xy, xz, yz [kg].
-struct LinearisedForces {
+struct LinearizedForces {
   std::array<float*, 3> force;
   std::array<float*, 6> block;
 };
 
-void linearise(const LatticeStencil& lattice, Jacobians& jacobians, const Linearisation& at,
-               const Segment& segment, const LinearisedForces& out);
-void linearise(const SpringLists& lists, Jacobians& jacobians, const Linearisation& at,
-               const Segment& segment, const LinearisedForces& out);
+void linearize(const LatticeStencil& lattice, Jacobians& jacobians, const Linearization& at,
+               const Segment& segment, const LinearizedForces& out);
+void linearize(const SpringLists& lists, Jacobians& jacobians, const Linearization& at,
+               const Segment& segment, const LinearizedForces& out);
 
 /// m·p and the springs' part of A·p [kg·m/s], on each particle of a segment.
-void multiply(const LatticeStencil& lattice, const Jacobians& jacobians, const Linearisation& at,
+void multiply(const LatticeStencil& lattice, const Jacobians& jacobians, const Linearization& at,
               const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out);
-void multiply(const SpringLists& lists, const Jacobians& jacobians, const Linearisation& at,
+void multiply(const SpringLists& lists, const Jacobians& jacobians, const Linearization& at,
               const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out);
 
 /// Particles of one reduction at most (physics/reductions.h).

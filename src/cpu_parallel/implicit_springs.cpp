@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "cpu_parallel/lanes-inl.h"
+#include "cpu_parallel/spring-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aspic::parallel::HWY_NAMESPACE {
@@ -16,55 +16,51 @@ namespace {
 
 /// Constants of a spring in every lane.
 struct SpringLanes {
-  Float k, c, r, slack, nothing, along;
+  Spring of;
+  Float slack, nothing, along;
 };
 
 HWY_INLINE SpringLanes constants_of(const Direction& to, float along) {
-  return {hn::Set(tag, to.constants.stiffness),
-          hn::Set(tag, to.constants.damping),
-          hn::Set(tag, to.constants.rest_length),
+  return {{hn::Set(tag, to.constants.stiffness), hn::Set(tag, to.constants.damping),
+           hn::Set(tag, to.constants.rest_length)},
           hn::Set(tag, to.constants.slack),
           hn::Set(tag, to.nothing),
           hn::Set(tag, along)};
 }
 
 /// What a spring takes off the force on its particle, and its Jacobian but for `along`.
-struct Linearised {
+struct LinearizedSpring {
   Vector force, n;
   Float across;
 };
 
-HWY_INLINE Linearised linearised(const SpringLanes& spring, const Vector& e, const Vector& v, Float h2) {
+HWY_INLINE LinearizedSpring linearized(const SpringLanes& spring, const Vector& e, const Vector& v,
+                                       Float h2) {
   const Float zero = hn::Zero(tag);
-  const Float L = hn::Sqrt(dot3(e, e));
-  const Float q = hn::Div(hn::Set(tag, 1.0f), L);
-  const Float s = hn::Add(hn::Mul(spring.k, hn::Sub(L, spring.r)), hn::Mul(spring.c, hn::Mul(dot3(v, e), q)));
-  const Float sq = hn::Mul(s, q);
-  const Mask idle = hn::Or(hn::Eq(L, zero), hn::Lt(L, spring.slack));
-  const Float across = hn::IfThenElseZero(hn::AndNot(idle, hn::Gt(s, zero)), hn::Mul(h2, sq));
+  Float L[1], q[1], s[1];
+  evaluate_tensions({e}, {v}, {spring.of}, L, q, s);
+  const Float sq = hn::Mul(s[0], q[0]);
+  const Mask idle = hn::Or(hn::Eq(L[0], zero), hn::Lt(L[0], spring.slack));
+  const Float across = hn::IfThenElseZero(hn::AndNot(idle, hn::Gt(s[0], zero)), hn::Mul(h2, sq));
   return {chosen(idle, {spring.nothing, spring.nothing, spring.nothing}, sq * e),
-          chosen(idle, {zero, zero, zero}, q * e), across};
+          chosen(idle, {zero, zero, zero}, q[0] * e), across};
 }
 
-/// BodyForce::implicit_mass() of physics/body_force.h.
-HWY_INLINE Float implicit_mass(const Linearisation& at, std::size_t p) {
-  const Float m = hn::LoadU(tag, at.mass + p);
-  return hn::Add(m, hn::Mul(hn::Set(tag, at.h), hn::Mul(hn::Set(tag, at.drag), m)));
+HWY_INLINE Float implicit_mass(const Linearization& at, std::size_t p) {
+  return BodyForce(*at.body_force).implicit_mass(hn::LoadU(tag, at.mass + p), hn::Set(tag, at.h));
 }
 
 /// Force and diagonal block of the particles in the lanes.
 struct Sums {
   Vector f, diagonal, mixed;
 
-  HWY_INLINE Sums(const Linearisation& at, std::size_t p) {
-    const Float m = hn::LoadU(tag, at.mass + p), zero = hn::Zero(tag);
-    const Vector g = {hn::Set(tag, at.gravity[0]), hn::Set(tag, at.gravity[1]), hn::Set(tag, at.gravity[2])};
-    f = m * g - hn::Mul(hn::Set(tag, at.drag), m) * load(*at.v, p);
-    const Float mass = implicit_mass(at, p);
+  HWY_INLINE Sums(const Linearization& at, std::size_t p) {
+    f = BodyForce(*at.body_force).at(hn::LoadU(tag, at.mass + p), load(*at.v, p));
+    const Float mass = implicit_mass(at, p), zero = hn::Zero(tag);
     diagonal = {mass, mass, mass};
     mixed = {zero, zero, zero};
   }
-  HWY_INLINE void add(Mask mask, const Linearised& s, Float along) {
+  HWY_INLINE void add(Mask mask, const LinearizedSpring& s, Float along) {
     const Float w = hn::Sub(along, s.across);
     const auto& [x, y, z] = s.n;
     const Vector squares = w * Vector{hn::Mul(x, x), hn::Mul(y, y), hn::Mul(z, z)};
@@ -94,12 +90,12 @@ struct Lanes {
     store(v.y, y + at);
     store(v.z, z + at);
   }
-  HWY_INLINE void store(const Sums& sums, const LinearisedForces& out, std::ptrdiff_t at) const {
+  HWY_INLINE void store(const Sums& sums, const LinearizedForces& out, std::ptrdiff_t at) const {
     store(sums.f, out.force[0], out.force[1], out.force[2], at);
     store(sums.diagonal, out.block[0], out.block[1], out.block[2], at);
     store(sums.mixed, out.block[3], out.block[4], out.block[5], at);
   }
-  HWY_INLINE void store(const Linearised& s, float* rows, std::size_t row_size) const {
+  HWY_INLINE void store(const LinearizedSpring& s, float* rows, std::size_t row_size) const {
     store(s.across, rows);
     store(s.n, rows + row_size, rows + 2 * row_size, rows + 3 * row_size, 0);
   }
@@ -118,8 +114,8 @@ HWY_INLINE void for_each_direction(const LatticeStencil& lattice, std::size_t pl
   }
 }
 
-void LineariseLattice(const LatticeStencil& lattice, Jacobians& jacobians, const Linearisation& at,
-                      const Segment& segment, const LinearisedForces& out) {
+void LinearizeLattice(const LatticeStencil& lattice, Jacobians& jacobians, const Linearization& at,
+                      const Segment& segment, const LinearizedForces& out) {
   const std::span<const Direction> directions = lattice.directions();
   const Float h = hn::Set(tag, at.h), h2 = hn::Set(tag, at.h * at.h);
   const Range& own = segment.own;
@@ -133,7 +129,7 @@ void LineariseLattice(const LatticeStencil& lattice, Jacobians& jacobians, const
       const std::size_t other = p + static_cast<std::size_t>(to.step);
       const SpringLanes spring = constants_of(to, jacobians.along()[d]);
       const Vector dv = v - load(*at.v, other);
-      const Linearised s = linearised(spring, (x - load(*at.x, other)) + h * dv, dv, h2);
+      const LinearizedSpring s = linearized(spring, (x - load(*at.x, other)) + h * dv, dv, h2);
       sums.add(mask, s, spring.along);
       if (to.step > 0 && jacobians.kept())
         part.store(s, jacobians.row(segment.plane, d - directions.size() / 2) + m, jacobians.row_size());
@@ -154,7 +150,7 @@ HWY_INLINE Vector kept_times(const float* rows, std::size_t row_size, Float alon
 
 template <bool kept>
 HWY_INLINE void multiply_lattice(const LatticeStencil& lattice, const Jacobians& jacobians,
-                                 const Linearisation& at, const VectorArray& p, const Segment& segment,
+                                 const Linearization& at, const VectorArray& p, const Segment& segment,
                                  const std::array<float*, 3>& out) {
   const std::span<const Direction> directions = lattice.directions();
   const Float h = hn::Set(tag, at.h), h2 = hn::Set(tag, at.h * at.h);
@@ -183,7 +179,7 @@ HWY_INLINE void multiply_lattice(const LatticeStencil& lattice, const Jacobians&
       } else {
         const Vector dv = load(*at.v, i) - load(*at.v, other);
         const Vector e = (load(*at.x, i) - load(*at.x, other)) + h * dv;
-        const Linearised s = linearised(constants_of(to, jacobians.along()[d]), e, dv, h2);
+        const LinearizedSpring s = linearized(constants_of(to, jacobians.along()[d]), e, dv, h2);
         part = times(along, s.across, s.n, difference);
       }
       product = chosen(mask, product + part, product);
@@ -193,7 +189,7 @@ HWY_INLINE void multiply_lattice(const LatticeStencil& lattice, const Jacobians&
   }
 }
 
-void MultiplyLattice(const LatticeStencil& lattice, const Jacobians& jacobians, const Linearisation& at,
+void MultiplyLattice(const LatticeStencil& lattice, const Jacobians& jacobians, const Linearization& at,
                      const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out) {
   if (jacobians.kept()) return multiply_lattice<true>(lattice, jacobians, at, p, segment, out);
   multiply_lattice<false>(lattice, jacobians, at, p, segment, out);
@@ -217,18 +213,18 @@ struct SlotLanes {
   }
 };
 
-HWY_INLINE Linearised linearised(const SpringLists& lists, const SpringLists::Slot& slot, std::size_t lane,
-                                 const Linearisation& at, std::size_t p) {
+HWY_INLINE LinearizedSpring linearized(const SpringLists& lists, const SpringLists::Slot& slot,
+                                       std::size_t lane, const Linearization& at, std::size_t p) {
   const SlotLanes lane_of(slot, lane);
   const Float h = hn::Set(tag, at.h), h2 = hn::Set(tag, at.h * at.h);
-  const SpringLanes spring = {hn::GatherIndex(tag, lists.stiffness().data(), lane_of.spring_class),
-                              hn::GatherIndex(tag, lists.damping().data(), lane_of.spring_class),
-                              hn::GatherIndex(tag, lists.rest_length().data(), lane_of.spring_class),
+  const SpringLanes spring = {{hn::GatherIndex(tag, lists.stiffness().data(), lane_of.spring_class),
+                               hn::GatherIndex(tag, lists.damping().data(), lane_of.spring_class),
+                               hn::GatherIndex(tag, lists.rest_length().data(), lane_of.spring_class)},
                               hn::GatherIndex(tag, lists.slack().data(), lane_of.spring_class),
                               hn::LoadU(tag, slot.nothing.data() + lane),
                               hn::Zero(tag)};
   const Vector dv = load(*at.v, p) - gathered(*at.v, lane_of.other);
-  return linearised(spring, (load(*at.x, p) - gathered(*at.x, lane_of.other)) + h * dv, dv, h2);
+  return linearized(spring, (load(*at.x, p) - gathered(*at.x, lane_of.other)) + h * dv, dv, h2);
 }
 
 /// Number of a slice's first slot among all slots.
@@ -236,8 +232,8 @@ HWY_INLINE std::size_t first_slot(const SpringLists& lists, std::size_t slice_in
   return static_cast<std::size_t>(lists.slots(slice_index).data() - lists.slots(0).data());
 }
 
-void LineariseLists(const SpringLists& lists, Jacobians& jacobians, const Linearisation& at,
-                    const Segment& segment, const LinearisedForces& out) {
+void LinearizeLists(const SpringLists& lists, Jacobians& jacobians, const Linearization& at,
+                    const Segment& segment, const LinearizedForces& out) {
   const Range& own = segment.own;
   for (std::size_t local = own.first / lanes * lanes; local < own.first + own.count; local += lanes) {
     const Lanes part(own, local);
@@ -246,7 +242,7 @@ void LineariseLists(const SpringLists& lists, Jacobians& jacobians, const Linear
     Sums sums(at, p);
     for (const SpringLists::Slot& slot : lists.slots(local / slice)) {
       const SlotLanes lane_of(slot, lane);
-      const Linearised s = linearised(lists, slot, lane, at, p);
+      const LinearizedSpring s = linearized(lists, slot, lane, at, p);
       sums.add(lane_of.present, s, lane_of.along(jacobians));
       if (jacobians.kept()) part.store(s, jacobians.slot(number) + lane, slice);
       ++number;
@@ -255,7 +251,7 @@ void LineariseLists(const SpringLists& lists, Jacobians& jacobians, const Linear
   }
 }
 
-void MultiplyLists(const SpringLists& lists, const Jacobians& jacobians, const Linearisation& at,
+void MultiplyLists(const SpringLists& lists, const Jacobians& jacobians, const Linearization& at,
                    const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out) {
   const Range& own = segment.own;
   for (std::size_t local = own.first / lanes * lanes; local < own.first + own.count; local += lanes) {
@@ -271,7 +267,7 @@ void MultiplyLists(const SpringLists& lists, const Jacobians& jacobians, const L
       if (jacobians.kept()) {
         part = kept_times(jacobians.slot(number) + lane, slice, along, difference);
       } else {
-        const Linearised s = linearised(lists, slot, lane, at, i);
+        const LinearizedSpring s = linearized(lists, slot, lane, at, i);
         part = times(along, s.across, s.n, difference);
       }
       product = chosen(lane_of.present, product + part, product);
@@ -290,8 +286,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace aspic::parallel {
 
-HWY_EXPORT(LineariseLattice);
-HWY_EXPORT(LineariseLists);
+HWY_EXPORT(LinearizeLattice);
+HWY_EXPORT(LinearizeLists);
 HWY_EXPORT(MultiplyLattice);
 HWY_EXPORT(MultiplyLists);
 
@@ -322,19 +318,19 @@ Jacobians::Jacobians(const SpringLists& lists, float h, bool keep) : kept_(keep)
   if (keep) values_ = FloatArray(slots * 4 * slice, 0);
 }
 
-void linearise(const LatticeStencil& lattice, Jacobians& jacobians, const Linearisation& at,
-               const Segment& segment, const LinearisedForces& out) {
-  HWY_DYNAMIC_DISPATCH(LineariseLattice)(lattice, jacobians, at, segment, out);
+void linearize(const LatticeStencil& lattice, Jacobians& jacobians, const Linearization& at,
+               const Segment& segment, const LinearizedForces& out) {
+  HWY_DYNAMIC_DISPATCH(LinearizeLattice)(lattice, jacobians, at, segment, out);
 }
-void linearise(const SpringLists& lists, Jacobians& jacobians, const Linearisation& at,
-               const Segment& segment, const LinearisedForces& out) {
-  HWY_DYNAMIC_DISPATCH(LineariseLists)(lists, jacobians, at, segment, out);
+void linearize(const SpringLists& lists, Jacobians& jacobians, const Linearization& at,
+               const Segment& segment, const LinearizedForces& out) {
+  HWY_DYNAMIC_DISPATCH(LinearizeLists)(lists, jacobians, at, segment, out);
 }
-void multiply(const LatticeStencil& lattice, const Jacobians& jacobians, const Linearisation& at,
+void multiply(const LatticeStencil& lattice, const Jacobians& jacobians, const Linearization& at,
               const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out) {
   HWY_DYNAMIC_DISPATCH(MultiplyLattice)(lattice, jacobians, at, p, segment, out);
 }
-void multiply(const SpringLists& lists, const Jacobians& jacobians, const Linearisation& at,
+void multiply(const SpringLists& lists, const Jacobians& jacobians, const Linearization& at,
               const VectorArray& p, const Segment& segment, const std::array<float*, 3>& out) {
   HWY_DYNAMIC_DISPATCH(MultiplyLists)(lists, jacobians, at, p, segment, out);
 }

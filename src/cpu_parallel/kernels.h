@@ -10,6 +10,7 @@
 #include "cpu_parallel/particles.h"
 #include "cpu_parallel/springs.h"
 #include "model/integrator.h"
+#include "physics/body_force.h"
 
 namespace aspic::parallel {
 
@@ -18,12 +19,11 @@ struct Forces {
   float* component[3];
 };
 
-/// What gravity and springs need.
+/// What body forces and springs need.
 struct ForceInput {
   const Particles* at;  ///< the stage at which forces are taken
   const float* mass;    ///< [kg]
-  float gravity[3];     ///< [m/s²]
-  float drag;           ///< γ [1/s]
+  const physics::BodyForce<float>* body_force;
   Arithmetic arithmetic = Arithmetic::exact;
 };
 

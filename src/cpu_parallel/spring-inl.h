@@ -6,8 +6,8 @@
 #define ASPIC_SPRING_INL_H
 #endif
 
+#include "cpu_parallel/body_force-inl.h"
 #include "cpu_parallel/kernels.h"
-#include "cpu_parallel/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aspic::parallel::HWY_NAMESPACE {
@@ -18,24 +18,33 @@ struct Spring {
   Float k, c, r;
 };
 
-/// What springs take off the forces on their ends a: factor·e, where e = xₐ − x_b, v = vₐ − v_b and spring i
-/// has the constants of[i % size]; and their lengths. All are treated in parallel, since one after the other
-/// they would fill the processor's scheduler with waiting operations.
-///
-/// Exact: s·q with s = k(L − r) + c((v·e)·q), q = 1/L; not a number for a spring of no length.
-template <Arithmetic arithmetic, std::size_t size, std::size_t springs>
-HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[springs],
-                                 const Spring (&of)[size], Float (&factor)[springs],
-                                 Float (&length)[springs]) requires(arithmetic == Arithmetic::exact) {
-  Float q[springs], along[springs];
+/// Lengths and tensions s = k(L − r) + c((v·e)·q), q = 1/L, of springs with e = xₐ − x_b and v = vₐ − v_b
+/// (SpringTension of physics/springs/law.h); spring i has the constants of[i % size]. All are treated in
+/// parallel, since one after the other they would fill the processor's scheduler with waiting operations.
+/// Not a number for a spring of no length.
+template <std::size_t size, std::size_t springs>
+HWY_INLINE void evaluate_tensions(const Vector (&e)[springs], const Vector (&v)[springs],
+                                  const Spring (&of)[size], Float (&length)[springs], Float (&q)[springs],
+                                  Float (&s)[springs]) {
+  Float along[springs];
   for (std::size_t i = 0; i < springs; ++i) length[i] = dot3(e[i], e[i]);
   for (std::size_t i = 0; i < springs; ++i) length[i] = hn::Sqrt(length[i]);
   for (std::size_t i = 0; i < springs; ++i) along[i] = dot3(v[i], e[i]);
   for (std::size_t i = 0; i < springs; ++i) q[i] = hn::Div(hn::Set(tag, 1.0f), length[i]);
   for (std::size_t i = 0; i < springs; ++i)
-    factor[i] = hn::Mul(of[i % size].k, hn::Sub(length[i], of[i % size].r));
+    s[i] = hn::Mul(of[i % size].k, hn::Sub(length[i], of[i % size].r));
   for (std::size_t i = 0; i < springs; ++i) along[i] = hn::Mul(of[i % size].c, hn::Mul(along[i], q[i]));
-  for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::Mul(hn::Add(factor[i], along[i]), q[i]);
+  for (std::size_t i = 0; i < springs; ++i) s[i] = hn::Add(s[i], along[i]);
+}
+
+/// What springs take off the forces on their ends a: factor·e; and their lengths. Exact: the factor is s·q.
+template <Arithmetic arithmetic, std::size_t size, std::size_t springs>
+HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[springs],
+                                 const Spring (&of)[size], Float (&factor)[springs],
+                                 Float (&length)[springs]) requires(arithmetic == Arithmetic::exact) {
+  Float q[springs];
+  evaluate_tensions(e, v, of, length, q, factor);
+  for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::Mul(factor[i], q[i]);
 }
 
 /// Fast: k − q·(k·r − c·((v·e)·q)), q by an estimate of 1/L and a Newton step. An estimate of n bits has 2n −
@@ -67,12 +76,8 @@ HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[s
   for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::NegMulAdd(q[i], along[i], of[i % size].k);
 }
 
-/// BodyForce::at() of physics/body_force.h.
 HWY_INLINE Vector body_force(const ForceInput& input, std::size_t i) {
-  const Float m = hn::LoadU(tag, input.mass + i), resisted = hn::Mul(hn::Set(tag, input.drag), m);
-  const Vector g = {hn::Set(tag, input.gravity[0]), hn::Set(tag, input.gravity[1]),
-                    hn::Set(tag, input.gravity[2])};
-  return m * g - resisted * load(input.at->v, i);
+  return BodyForce(*input.body_force).at(hn::LoadU(tag, input.mass + i), load(input.at->v, i));
 }
 
 /// Places as in load() of particles.

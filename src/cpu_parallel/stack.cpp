@@ -61,7 +61,6 @@ Stack::Stack(const std::vector<SharedModel>& models, std::shared_ptr<const Upper
   mass_ = FloatArray(size, 0);
   inverse_mass_ = FloatArray(size, 0);
   constants_ = FloatArray(first.spring_classes.size() * constant_rows * stack_lanes, 0);
-  gravity_ = FloatArray(4 * stack_lanes, 0);
   fronts_.resize(first.terrain.size());
   near_.reserve(particles_);
   for (const SharedModel& model : models) {
@@ -76,8 +75,7 @@ Stack::Stack(const std::vector<SharedModel>& models, std::shared_ptr<const Upper
 
 std::uint64_t Stack::bytes() const {
   std::uint64_t sum = sizeof(*this) + bytes_of(lanes_) + bytes_of(fronts_) + bytes_of(near_) +
-                      bytes_of(force_) + bytes_of(mass_) + bytes_of(inverse_mass_) + bytes_of(constants_) +
-                      bytes_of(gravity_);
+                      bytes_of(force_) + bytes_of(mass_) + bytes_of(inverse_mass_) + bytes_of(constants_);
   for (const Particles* const each : {&state_, &next_, &between_, &sums_}) sum += bytes_of(*each);
   for (const Lane& lane : lanes_) sum += lane.dynamics.bytes() + bytes_of(lane.kept) + bytes_of(lane.resting);
   return sum;
@@ -159,9 +157,7 @@ void Stack::take_constants(std::size_t lane) {
       to += stack_lanes;
     }
   }
-  const Vector g = lanes_[lane].dynamics.body_force().gravity;
-  for (std::size_t c = 0; c < 3; ++c) gravity_[c * stack_lanes + lane] = g[static_cast<Eigen::Index>(c)];
-  gravity_[3 * stack_lanes + lane] = lanes_[lane].dynamics.body_force().drag;
+  body_forces_[lane] = lanes_[lane].dynamics.body_force();
 }
 
 /// Rest lengths that follow signals, of the stage at that share of the step.
@@ -237,7 +233,7 @@ void Stack::advance() {
     Particles* const to = (stages - s) % 2 == 1 ? &next_ : &between_;
     const Forces forces = forces_of(force_);
     take_lengths(s == 0 ? 0.0 : method.stages[s - 1].advance);
-    stack_forces({springs_.get(), constants_.data(), mass_.data(), gravity_.data()}, *where, forces);
+    stack_forces({springs_.get(), constants_.data(), mass_.data(), body_forces_.data()}, *where, forces);
     add_pulls(*where);
     if (course) find_near(where->x);
     add_contact(*where);
@@ -298,9 +294,8 @@ void Stack::add_pulls(const Particles& where) {
     for (const physics::PullConstants<float>& pull : lane.dynamics.pulls()) {
       const std::size_t n = at(static_cast<std::size_t>(pull.particle), index);
       put(forces, n,
-          vector_at(forces, n) + physics::spring_force<float>(pull.spring, vector_of(where.x, n),
-                                                              vector_of(where.v, n), pull.anchor,
-                                                              Vector::Zero()));
+          vector_at(forces, n) +
+              physics::pull_force<float>(pull, vector_of(where.x, n), vector_of(where.v, n)));
     }
   });
 }

@@ -80,7 +80,8 @@ class Stack {
   std::uint32_t running_ = 0;  ///< a bit for each lane that has not diverged
   Particles state_, next_, between_, sums_;
   VectorArray force_;
-  FloatArray mass_, inverse_mass_, constants_, gravity_;
+  FloatArray mass_, inverse_mass_, constants_;
+  std::array<physics::BodyForce<float>, stack_lanes> body_forces_;
   std::vector<Front> fronts_;  ///< by terrain
   std::vector<NearRow> near_;  ///< at the step's start
   bool known_ = false;         ///< `near_` is up to date

@@ -68,13 +68,10 @@ void StackForces(const StackInput& input, const Particles& at, const Forces& for
       rows.f.component[c] = forces.component[c] + lane;
     }
     const float *const mass = input.mass + lane, *const constants = input.constants + lane;
-    const float* const gravity[3] = {input.gravity + lane, input.gravity + stack_lanes + lane,
-                                     input.gravity + 2 * stack_lanes + lane};
-    const Vector g = row(gravity, 0);
-    const Float drag = hn::Load(tag, input.gravity + 3 * stack_lanes + lane);
-    for (std::size_t i = 0; i < particles; ++i) {  // BodyForce::at() of physics/body_force.h
-      const Float m = hn::Load(tag, mass + i * stack_lanes);
-      store(m * g - hn::Mul(drag, m) * row(rows.v, i * stack_lanes), rows.f, i * stack_lanes);
+    const BodyForce body_force(input.body_forces + lane);
+    for (std::size_t i = 0; i < particles; ++i) {
+      const std::size_t at = i * stack_lanes;
+      store(body_force.at(hn::Load(tag, mass + at), row(rows.v, at)), rows.f, at);
     }
     for (std::size_t i = 0; i < particles; ++i) {
       const std::size_t own_row = i * stack_lanes, end = springs.start[i + 1];

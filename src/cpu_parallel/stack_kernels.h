@@ -29,12 +29,12 @@ struct UpperEnds {
 /// Rows of a spring class in StackInput::constants.
 enum class ConstantRow : std::size_t { stiffness, damping, rest_length, slack, count };
 
-/// What gravity and springs need.
+/// What body forces and springs need.
 struct StackInput {
   const UpperEnds* springs;
   const float* constants;  ///< a row for each ConstantRow of each class (Constants has their meaning)
   const float* mass;       ///< [kg]
-  const float* gravity;    ///< a row for each component [m/s²], then one of drag γ [1/s]
+  const physics::BodyForce<float>* body_forces;  ///< of each lane
 };
 
 /// Gravity, drag and the springs of all particles.

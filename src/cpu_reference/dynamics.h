@@ -1,6 +1,6 @@
 #pragma once
-// Force and acceleration of all particles: a(x, v) = w·f(x, v) with f = m·g + springs + pulls + contact
-// force.
+// What the forces of a model need in the solver's precision: masses, constants, inputs, and the terrain of
+// the step under way, with its response.
 #include <atomic>
 #include <utility>
 #include <vector>
@@ -8,10 +8,8 @@
 #include "aspic/inputs.h"
 #include "model/inputs.h"
 #include "model/model.h"
-#include "model/springs.h"
 #include "physics/body_force.h"
 #include "physics/pulls/law.h"
-#include "physics/springs/law.h"
 #include "physics/terrain/coulomb.h"
 
 namespace aspic::reference {
@@ -39,30 +37,13 @@ class Dynamics {
   }
 
   std::uint64_t step() const { return step_; }
+  const Model& model() const { return *model_; }
+  T time_step() const { return static_cast<T>(model_->simulation.timestep); }
 
   /// While `*flag` is true forces are left incomplete, for a step that is cancelled; see
   /// Solver::set_stop_flag.
   void set_stop_flag(const std::atomic<bool>* flag) { flag_ = flag; }
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
-
-  /// f(x, v) [N], one column per particle, `share` of the step after its start; of a step with BodyContact
-  /// that of StepDynamics instead.
-  Field<T> force(const Field<T>& x, const Field<T>& v, double share = 0.0) const {
-    Field<T> f = force_without_contact(x, v, share);
-    add_contact_force(x, v, f);
-    return f;
-  }
-
-  /// The course model's contact force alone, at (x, v) [N]; zero in the Coulomb model. Implicit Euler holds
-  /// it.
-  Field<T> held_contact_force(const Field<T>& x, const Field<T>& v) const {
-    Field<T> held = Field<T>::Zero(3, x.cols());
-    if (model_->contact.model == ContactModel::coulomb) return held;
-    Field<T> f = force_without_contact(x, v);
-    const Field<T> before = f;
-    add_contact_force(x, v, f);
-    return f - before;
-  }
 
   /// Inputs of the model that rounded_inputs() returned hold until others are set; balls feel their pulls
   /// elsewhere (balls.h).
@@ -88,7 +69,6 @@ class Dynamics {
   const BodyForce<T>& body_force() const { return body_force_; }
   T mass(Eigen::Index i) const { return mass_[static_cast<std::size_t>(i)]; }
   T inverse_mass(Eigen::Index i) const { return inverse_mass_[static_cast<std::size_t>(i)]; }
-  const SpringConstants<T>& spring_class(const Spring& spring) const { return classes_[spring.spring_class]; }
   /// Constants of all spring classes this share of the step after its start: actuated ones have the rest
   /// length that they have then.
   std::vector<SpringConstants<T>> classes_at(double share) const {
@@ -99,11 +79,6 @@ class Dynamics {
     for (const double r : lengths.at(step_, share, channels_))
       classes[model_->actuation.classes[n++].spring_class].r = static_cast<T>(r);
     return classes;
-  }
-
-  /// a(x, v) = w·f(x, v) [m/s²], without the ground's reaction in the Coulomb model, which belongs to a step.
-  Field<T> acceleration(const Field<T>& x, const Field<T>& v, double share = 0.0) const {
-    return weighed(force(x, v, share));
   }
 
   /// w·f [m/s²]
@@ -152,26 +127,6 @@ class Dynamics {
       x.col(i) = xi;
       v.col(i) = vi;
     }
-  }
-
-  /// Gravity and drag, then the springs, then the pulls. Springs are sorted by (a, b), so each particle's sum
-  /// runs over its springs in ascending neighbour index.
-  Field<T> force_without_contact(const Field<T>& x, const Field<T>& v, double share = 0.0) const {
-    Field<T> f(3, x.cols());
-    for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = body_force_.at(mass(i), v.col(i));
-    if (interrupted()) return f;
-    const std::vector<SpringConstants<T>> classes = classes_at(share);
-    for (const Spring& spring : springs_of(*model_)) {
-      const Vector<T> on_a = spring_force<T>(classes[spring.spring_class], x.col(spring.a), v.col(spring.a),
-                                             x.col(spring.b), v.col(spring.b));
-      f.col(spring.a) += on_a;
-      f.col(spring.b) -= on_a;
-    }
-    for (const PullConstants<T>& pull : pulls_) {
-      const Eigen::Index i = pull.particle;
-      f.col(i) += spring_force<T>(pull.spring, x.col(i), v.col(i), pull.anchor, Vector<T>::Zero());
-    }
-    return f;
   }
 
   /// The course model: adds every terrain's part to the forces.

@@ -15,6 +15,7 @@
 #include "cpu_reference/body_contact.h"
 #include "cpu_reference/implicit_newton.h"
 #include "cpu_reference/method.h"
+#include "cpu_reference/terms.h"
 #include "model/springs.h"
 #include "physics/contact/implicit.h"
 #include "physics/diagonal_block.h"
@@ -29,7 +30,7 @@ class ImplicitEuler final : public Method<T> {
  public:
   ImplicitEuler(const Dynamics<T>& dynamics, const Model& model)
       : dynamics_(dynamics),
-        model_(model),
+        terms_(dynamics),
         ahead_(dynamics.grounds(), dynamics.contact(), model.contact.model == ContactModel::coulomb),
         limits_(model.simulation.implicit),
         h_(static_cast<T>(model.simulation.timestep)) {
@@ -63,11 +64,12 @@ class ImplicitEuler final : public Method<T> {
   void turn(T beta) { p_ = z_ + beta * p_; }
 
  private:
+  void hold_contact_force(const Phase<T>& s);
   void meet_bodies(const Phase<T>& s);
-  /// Gravity, springs and pulls on a particle where the step begins, found where something asks for them.
+  /// The sum of all terms on a particle where the step begins, found where something asks for it.
   auto start_force() {
     return [this](std::uint32_t p) -> Vector<T> {
-      if (start_force_.cols() == 0) start_force_ = dynamics_.force_without_contact(s_->x, s_->v);
+      if (start_force_.cols() == 0) start_force_ = terms_.force(s_->x, s_->v);
       return start_force_.col(p);
     };
   }
@@ -81,23 +83,20 @@ class ImplicitEuler final : public Method<T> {
   T dot(const Field<T>& a, const Field<T>& b) const;
 
   const Dynamics<T>& dynamics_;
-  const Model& model_;
+  Terms<T> terms_;
   GroundAhead<T> ahead_;
   std::unique_ptr<ImplicitContact<T, BodyContact<T>>> bodies_;  ///< none where none can touch
   SolveLimits<T> limits_;
   T h_;
 
   // Of the step under way.
-  const Phase<T>* s_ = nullptr;              ///< where it began
-  std::vector<SpringConstants<T>> classes_;  ///< at its end
-  Field<T> held_;                            ///< contact force of the course model [N]
-  bool in_contact_ = false;                  ///< whether bodies may touch in it
-  Field<T> start_force_;                     ///< start_force() [N]
-  Field<T> base_, trial_, delta_;            ///< velocities [m/s]: trial = base + λ·δ
-  Field<T> r_, z_, p_, q_;  ///< of the linear system; r begins as m·(v − v') + h·f [kg·m/s]
+  const Phase<T>* s_ = nullptr;    ///< where it began
+  Field<T> held_;                  ///< contact force of the course model [N]
+  bool in_contact_ = false;        ///< whether bodies may touch in it
+  Field<T> start_force_;           ///< start_force() [N]
+  Field<T> base_, trial_, delta_;  ///< velocities [m/s]: trial = base + λ·δ
+  Field<T> r_, z_, p_, q_;         ///< of the linear system; r begins as m·(v − v') + h·f [kg·m/s]
   // At the trial.
-  std::vector<SpringJacobian<T>> jacobian_;       ///< of every spring
-  std::vector<SpringJacobian<T>> pull_jacobian_;  ///< of every pull
   std::vector<DiagonalBlock<T>> preconditioner_;
   std::vector<GroundReaction<T>> ground_;  ///< on every particle
   Field<T> prescribed_;                    ///< the part of δ that the ground leaves no choice in [m/s]
@@ -126,10 +125,20 @@ Trial<T> ImplicitEuler<T>::try_step(T lambda, bool onwards) {
   return evaluate();
 }
 
+/// The course model's contact force at the step's start, held throughout it [N]; zero in the Coulomb model.
+template <class T>
+void ImplicitEuler<T>::hold_contact_force(const Phase<T>& s) {
+  held_ = Field<T>::Zero(3, s.x.cols());
+  if (dynamics_.model().contact.model == ContactModel::coulomb) return;
+  const Field<T> before = terms_.force(s.x, s.v);
+  Field<T> f = before;
+  dynamics_.add_contact_force(s.x, s.v, f);
+  held_ = f - before;
+}
+
 /// Whether bodies may touch in the step from s.
 template <class T>
 void ImplicitEuler<T>::meet_bodies(const Phase<T>& s) {
-  start_force_.resize(3, 0);
   in_contact_ = bodies_ && bodies_->start(dynamics_.step(), view_of(s), start_force(), inverse_mass());
 }
 
@@ -161,35 +170,7 @@ template <class T>
 Trial<T> ImplicitEuler<T>::evaluate() {
   const Phase<T>& s = *s_;
   const Eigen::Index count = s.x.cols();
-  Field<T> f(3, count);
-  std::vector<DiagonalBlock<T>> blocks;
-  blocks.reserve(static_cast<std::size_t>(count));
-  for (Eigen::Index i = 0; i < count; ++i) {
-    f.col(i) = dynamics_.body_force().at(dynamics_.mass(i), trial_.col(i));
-    blocks.emplace_back(dynamics_.body_force().implicit_mass(dynamics_.mass(i), h_));
-  }
-  jacobian_.clear();
-  jacobian_.reserve(spring_count(model_));
-  for (const Spring& spring : springs_of(model_)) {
-    // Not from a rounded x': the difference of the positions is exact where they are close.
-    const Vector<T> v = trial_.col(spring.a) - trial_.col(spring.b);
-    const Vector<T> e = (s.x.col(spring.a) - s.x.col(spring.b)) + h_ * v;
-    const auto [on_a, H] = linearised<T>(classes_[spring.spring_class], h_, e, v);
-    f.col(spring.a) += on_a;
-    f.col(spring.b) -= on_a;
-    blocks[spring.a].add(H);
-    blocks[spring.b].add(H);
-    jacobian_.push_back(H);
-  }
-  pull_jacobian_.clear();
-  for (const PullConstants<T>& pull : dynamics_.pulls()) {  // springs whose other end does not move
-    const Vector<T> v = trial_.col(pull.particle);
-    const Vector<T> e = (s.x.col(pull.particle) - pull.anchor) + h_ * v;
-    const auto [on_particle, H] = linearised<T>(pull.spring, h_, e, v);
-    f.col(pull.particle) += on_particle;
-    blocks[static_cast<std::size_t>(pull.particle)].add(H);
-    pull_jacobian_.push_back(H);
-  }
+  auto [f, blocks] = terms_.linearize(s.x, trial_);
   Field<T> held = held_;
   bool holds = in_contact_ && contact(held, blocks);
   r_ = prescribed_ = Field<T>::Zero(3, count);
@@ -242,19 +223,7 @@ T ImplicitEuler<T>::dot(const Field<T>& a, const Field<T>& b) const {
 /// A·p with A = m − h·∂f/∂v' at the trial; rows of pinned particles are empty.
 template <class T>
 Field<T> ImplicitEuler<T>::product(const Field<T>& p) const {
-  Field<T> product(3, p.cols());
-  for (Eigen::Index i = 0; i < p.cols(); ++i)
-    product.col(i) = dynamics_.body_force().implicit_mass(dynamics_.mass(i), h_) * p.col(i);
-  std::size_t n = 0;
-  for (const Spring& spring : springs_of(model_)) {
-    const Vector<T> on_a = jacobian_[n++] * Vector<T>(p.col(spring.a) - p.col(spring.b));
-    product.col(spring.a) += on_a;
-    product.col(spring.b) -= on_a;
-  }
-  for (std::size_t k = 0; k < pull_jacobian_.size(); ++k) {
-    const Eigen::Index i = dynamics_.pulls()[k].particle;
-    product.col(i) += pull_jacobian_[k] * Vector<T>(p.col(i));
-  }
+  Field<T> product = terms_.product(p);
   if (in_contact_) {
     bodies_->multiply([&](std::uint32_t i) { return Vector<T>(p.col(i)); });
     Field<T> own = Field<T>::Zero(3, p.cols());
@@ -306,8 +275,8 @@ T ImplicitEuler<T>::advance(T alpha, bool first) {
 template <class T>
 Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
   s_ = &s;
-  classes_ = dynamics_.classes_at(1.0);
-  held_ = dynamics_.held_contact_force(s.x, s.v);
+  start_force_.resize(3, 0);
+  hold_contact_force(s);
   ahead_.start(s.x);
   meet_bodies(s);
   Field<T> v = solve_step(*this, limits_, report) ? trial_ : base_;

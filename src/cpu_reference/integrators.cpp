@@ -6,6 +6,5 @@ namespace aspic::reference {
 
 template Phase<float> explicit_step(Integrator, const StepDynamics<float>&, const Phase<float>&, double);
 template Phase<double> explicit_step(Integrator, const StepDynamics<double>&, const Phase<double>&, double);
-template Phase<double> explicit_step(Integrator, const Dynamics<double>&, const Phase<double>&, double);
 
 }  // namespace aspic::reference

@@ -126,7 +126,5 @@ extern template Phase<float> explicit_step(Integrator, const StepDynamics<float>
                                            double);
 extern template Phase<double> explicit_step(Integrator, const StepDynamics<double>&, const Phase<double>&,
                                             double);
-extern template Phase<double> explicit_step(Integrator, const Dynamics<double>&, const Phase<double>&,
-                                            double);
 
 }  // namespace aspic::reference

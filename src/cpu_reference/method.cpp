@@ -14,12 +14,15 @@ template <class T>
 class StagedMethod final : public Method<T> {
  public:
   StagedMethod(const Dynamics<T>& dynamics, const Model& model)
-      : dynamics_(dynamics), integrator_(model.simulation.integrator), h_(model.simulation.timestep) {
+      : dynamics_(dynamics),
+        terms_(dynamics),
+        integrator_(model.simulation.integrator),
+        h_(model.simulation.timestep) {
     if (has_body_contact(model)) bodies_ = std::make_unique<BodyContact<T>>(model);
   }
 
   Phase<T> step(const Phase<T>& s, SolveReport&) override {
-    return explicit_step(integrator_, StepDynamics<T>(dynamics_, s.x, s.v, bodies_.get()), s, h_);
+    return explicit_step(integrator_, StepDynamics<T>(dynamics_, terms_, s.x, s.v, bodies_.get()), s, h_);
   }
   void respond(const Phase<T>& s, Phase<T>& end) const override { dynamics_.respond(s.x, s.v, end.x, end.v); }
 
@@ -32,6 +35,7 @@ class StagedMethod final : public Method<T> {
 
  private:
   const Dynamics<T>& dynamics_;
+  Terms<T> terms_;
   std::unique_ptr<BodyContact<T>> bodies_;  // none where none can touch
   Integrator integrator_;
   double h_;

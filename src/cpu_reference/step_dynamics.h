@@ -4,26 +4,27 @@
 #include <vector>
 
 #include "cpu_reference/body_contact.h"
-#include "cpu_reference/dynamics.h"
+#include "cpu_reference/terms.h"
 
 namespace aspic::reference {
 
-/// The forces of one step from (x0, v0): those of `dynamics`, contact between bodies, then the ground's
-/// reaction on the particles that rest on it. An explicit method evaluates these.
+/// The forces of one step from (x0, v0): the terms, contact between bodies, then terrain: the course model's
+/// force or, in the Coulomb model, the reaction on the particles that rest on it. An explicit method
+/// evaluates these.
 template <class T>
 class StepDynamics {
  public:
   /// `bodies` may be nullptr. All must outlive it.
-  StepDynamics(const Dynamics<T>& dynamics, const Field<T>& x0, const Field<T>& v0,
+  StepDynamics(const Dynamics<T>& dynamics, const Terms<T>& terms, const Field<T>& x0, const Field<T>& v0,
                BodyContact<T>* bodies = nullptr)
-      : dynamics_(dynamics), start_(view(x0, v0)) {
+      : dynamics_(dynamics), terms_(terms), start_(view(x0, v0)) {
     for (Eigen::Index i = 0; i < x0.cols(); ++i) dynamics.find_resting(i, x0.col(i), v0.col(i), resting_);
     if (bodies && bodies->begin_step(dynamics.step(), start_)) bodies_ = bodies;
   }
 
   /// a(x, v) [m/s²] at the stage that is this share of the step from its start.
   Field<T> acceleration(const Field<T>& x, const Field<T>& v, double share) const {
-    Field<T> f = dynamics_.force_without_contact(x, v, share);
+    Field<T> f = terms_.force(x, v, share);
     if (bodies_ && !dynamics_.interrupted() && bodies_->find(view(x, v))) add_body_contact(f);
     dynamics_.add_contact_force(x, v, f);
     for (const RestingContact<T>& at : resting_)
@@ -46,6 +47,7 @@ class StepDynamics {
   }
 
   const Dynamics<T>& dynamics_;
+  const Terms<T>& terms_;
   View start_;
   BodyContact<T>* bodies_ = nullptr;  // none where nothing may touch in this step
   std::vector<RestingContact<T>> resting_;

@@ -1,6 +1,6 @@
 #pragma once
 // Contact between bodies in a stage of an explicit method: the passes between the forces of springs and the
-// ground's (shaders/compute/body_contact.glsl).
+// ground's (shaders/compute/terms/body_contact.glsl).
 #include <array>
 #include <cstdint>
 #include <memory>

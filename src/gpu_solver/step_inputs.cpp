@@ -10,7 +10,7 @@
 namespace aspic {
 namespace {
 
-/// PullBlock of shaders/compute/pull.glsl.
+/// PullBlock of shaders/compute/terms/pulls.glsl.
 struct PullTable {
   std::uint32_t count = 0, padding0 = 0, padding1 = 0, padding2 = 0;
   layout::Pull pulls[MAX_PULLS] = {};

@@ -7,9 +7,10 @@ namespace aspic::physics {
 
 template <class T>
 struct BodyForce {
-  Vector<T> gravity;  ///< g [m/s²]
-  T drag;             ///< γ [1/s]
+  Vector<T> gravity = Vector<T>::Zero();  ///< g [m/s²]
+  T drag = T(0);                          ///< γ [1/s]
 
+  BodyForce() = default;
   explicit BodyForce(const Model& model)
       : gravity(rounded<T>(model.simulation.gravity)), drag(static_cast<T>(model.simulation.drag)) {}
 

@@ -51,6 +51,10 @@ Vector<T> rounded(const Vec3& v) {
   return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
 }
 
+inline Vec3 vec3_of(const Vector<double>& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
 /// Columns from vectors, each component rounded.
 template <class T>
 Field<T> field(const std::vector<Vec3>& vectors) {

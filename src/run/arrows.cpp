@@ -100,7 +100,7 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
       if (!(wanted.springs || wanted.external || wanted.net) || !bodies[b].shows(i, false)) continue;
       const ParticleForce f = particle_force(model, springs, state, i, inputs, &bodies_touched);
       add(wanted.springs, i, f.springs, ArrowKind::springs);
-      add(wanted.external, i, f.gravity + f.drag + f.pull, ArrowKind::external);
+      add(wanted.external, i, external_force(f), ArrowKind::external);
       add(wanted.net, i, f.net, ArrowKind::net);
     }
   }

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "cpu_reference/dynamics.h"
+#include "cpu_reference/terms.h"
 #include "model/springs.h"
 #include "support/model_building.h"
 
@@ -52,7 +52,8 @@ void expect_references_force(const Model& model, const State& state, const std::
   }
   reference::Dynamics<double> dynamics(model);
   dynamics.set_inputs(inputs_of(pull));
-  const Field<double> f = dynamics.force(x, v);
+  Field<double> f = reference::Terms<double>(dynamics).force(x, v);
+  dynamics.add_contact_force(x, v, f);
   const SpringFinder incident(model);
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
     const ParticleForce force = particle_force(model, incident, state, i, inputs_of(pull));

@@ -327,6 +327,7 @@ TEST(BodyContact, SqueezedCubeTakesItsShapeAgain) {
        fixed(test::box_of({8, 3, 7}, {0, edge / 2 + 1.15 * S, 0})), cube_of(4, {})});
   const Model model = build(settings);
   const reference::Dynamics<double> dynamics(model);
+  const reference::Terms<double> terms(dynamics);
   reference::BodyContact<double> contact(model);
   const State start = initial_state(model, Precision::double_);
   physics::Phase<double> s = {physics::field<double>(start.position), physics::field<double>(start.velocity)};
@@ -338,7 +339,8 @@ TEST(BodyContact, SqueezedCubeTakesItsShapeAgain) {
     s.v.block(1, 0, 1, count).setConstant(v);
     s.v.block(1, count, 1, count).setConstant(-v);
     s = reference::explicit_step(Integrator::symplectic_euler,
-                                 reference::StepDynamics<double>(dynamics, s.x, s.v, &contact), s, 0.001);
+                                 reference::StepDynamics<double>(dynamics, terms, s.x, s.v, &contact), s,
+                                 0.001);
     for (const auto& touch : contact.contacts()) deepest = std::min(deepest, touch.d / S);
   }
   EXPECT_GE(deepest, -0.1);

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "cpu_reference/all_forces.h"
 #include "cpu_reference/implicit_euler.h"
 #include "cpu_reference/phase.h"
 #include "model/terrain.h"
@@ -223,7 +224,7 @@ TEST(ImplicitGround, SolvesTheEquationWithTheGroundInIt) {
       Phase<double> next = method.step(s, report);
       ASSERT_EQ(report.end, SolveEnd::converged) << "step " << n << ", μ = " << mu;
       ahead.start(s.x);
-      const Field<double> a = dynamics.acceleration(s.x + h * next.v, next.v);
+      const Field<double> a = test::AllForces(dynamics).acceleration(s.x + h * next.v, next.v);
       for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
         const GroundReaction<double> wanted = ahead.react(i, dynamics.mass(i), s.v.col(i) + h * a.col(i));
         ++seen[wanted.count];

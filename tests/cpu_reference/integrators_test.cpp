@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cpu_reference/all_forces.h"
 #include "cpu_reference/phase.h"
 #include "model/integrator.h"
 #include "support/integrator_names.h"
@@ -19,7 +20,8 @@ INSTANTIATE_TEST_SUITE_P(Explicit, EveryMethod, testing::ValuesIn(explicit_integ
 // Free fall: v_n = v_0 + n·h·g for all; the position sums depend on which velocity a method moves with.
 TEST_P(EveryMethod, FreeFallFollowsItsOwnRecurrence) {
   const Model model = test::particles({{1, 2, 3}}, {{0.5, 4, -1}});
-  const Dynamics<double> dynamics(model);
+  const Dynamics<double> constants(model);
+  const test::AllForces dynamics(constants);
   const double h = 0.001, g = -9.8;
   Phase<double> s = start_of(model);
   const int n = 1000;
@@ -38,7 +40,8 @@ TEST_P(EveryMethod, EqualsTheStageTableToTheBit) {
   ModelSettings settings = test::cube_on_plane(4);
   settings.cubes[0].velocity = {1.0, -2.0, 0.3};
   const Model model = test::build(settings);
-  const Dynamics<double> dynamics(model);
+  const Dynamics<double> constants(model);
+  const test::AllForces dynamics(constants);
   const Staged& method = *row_of(GetParam()).staged();
   const double h = 0.002;
   Phase<double> by_name = start_of(model), by_table = by_name;
@@ -77,7 +80,8 @@ TEST_P(EveryMethod, ConvergesWithItsOrder) {
   cube.structural = cube.shear = {20.0, 0.2};
   settings.cubes.push_back(cube);
   const Model model = test::build(settings);
-  const Dynamics<double> dynamics(model);
+  const Dynamics<double> constants(model);
+  const test::AllForces dynamics(constants);
   const auto solve = [&](Integrator method, double h) {
     Phase<double> s = start_of(model);
     for (Eigen::Index i = 0; i < 8; ++i)

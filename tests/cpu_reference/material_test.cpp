@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "cpu_reference/dynamics.h"
+#include "cpu_reference/terms.h"
 #include "model/cube.h"
 #include "support/model_building.h"
 
@@ -48,6 +48,7 @@ Model bar(int length, int width, const SpringSettings& springs, double s) {
 /// Tension [N] of the bar stretched by `strain` along x between its held ends, its sides free to shrink.
 double tension(const Model& model, int length, int width, double strain) {
   const Dynamics<double> dynamics(model);
+  const Terms<double> terms(dynamics);
   const auto count = static_cast<Eigen::Index>(model.particle_count());
   const Eigen::Index layer = static_cast<Eigen::Index>(width) * width;
   Field<double> x(3, count), v = Field<double>::Zero(3, count);
@@ -59,7 +60,7 @@ double tension(const Model& model, int length, int width, double strain) {
   const double h = 0.2 / std::sqrt(model.spring_classes[0].stiffness);
   Field<double> f;
   for (int n = 0; n < 20000; ++n) {
-    f = dynamics.force(x, Field<double>::Zero(3, count));
+    f = terms.force(x, Field<double>::Zero(3, count));
     const Field<double> free = f;
     for (Eigen::Index i = 0; i < layer; ++i) f(0, i) = f(0, count - 1 - i) = 0.0;
     if (n > 100 && f.cwiseAbs().maxCoeff() < 1e-9) {

@@ -122,7 +122,7 @@ class Balls {
     Vector<T> f = body_force_.at(bodies_[static_cast<std::size_t>(b)].mass, start.v.col(b));
     for (const PullConstants<T>& pull : pulls_) {
       if (pull.particle != b) continue;
-      f += spring_force<T>(pull.spring, start.x.col(b), start.v.col(b), pull.anchor, Vector<T>::Zero());
+      f += pull_force<T>(pull, start.x.col(b), start.v.col(b));
     }
     return f;
   }

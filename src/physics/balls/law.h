@@ -1,7 +1,8 @@
 #pragma once
 // Contact of balls (docs/balls.md): with terrain, with each other and with particles. Every expression has
-// one order of operations, which the kernels follow (shaders/compute/ball_contact.glsl). A pair is evaluated
-// from each of its two sides, since exchanging the bodies negates vectors exactly but for the signs of zeros.
+// one order of operations, which the kernels follow (shaders/compute/terms/ball_contact.glsl). A pair is
+// evaluated from each of its two sides, since exchanging the bodies negates vectors exactly but for the signs
+// of zeros.
 #include "physics/terrain/coulomb.h"
 
 namespace aspic::physics {

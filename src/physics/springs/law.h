@@ -21,34 +21,49 @@ struct SpringConstants {
         cord(s.cord) {}
 };
 
-/// Force [N] of the spring on its end a; end b feels the exact opposite.
-///   e = xₐ − x_b,  L = |e|,  q = 1/L,  s = k(L − r) + c(((vₐ − v_b)·e)·q),  fₐ = −((s·q)·e)
-/// A spring of no length, and a cord that hangs slack, pull nowhere.
+/// How a spring with e = xₐ − x_b and v = vₐ − v_b pulls:
+///   L = |e|,  q = 1/L,  s = k(L − r) + c((v·e)·q)
+/// A spring of no length, and a cord that hangs slack, pull nowhere: then q = s = 0.
 template <class T>
-Vector<T> spring_force(const SpringConstants<T>& spring, const Vector<T>& xa, const Vector<T>& va,
-                       const Vector<T>& xb, const Vector<T>& vb) {
-  const Vector<T> e = xa - xb;
-  const T L = norm3<T>(e);
-  if (L == T(0) || (spring.cord && L < spring.r)) return Vector<T>::Zero();
-  const T q = T(1) / L;
-  const T s = spring.k * (L - spring.r) + spring.c * (dot3<T>(va - vb, e) * q);
-  return -((s * q) * e);
+struct SpringTension {
+  T L;         ///< length [m]
+  T q = T(0);  ///< [1/m]
+  T s = T(0);  ///< tension [N], positive where it pulls its ends together
+  bool acts;
+
+  SpringTension(const SpringConstants<T>& spring, const Vector<T>& e, const Vector<T>& v)
+      : L(norm3<T>(e)), acts(!(L == T(0) || (spring.cord && L < spring.r))) {
+    if (!acts) return;
+    q = T(1) / L;
+    s = spring.k * (L - spring.r) + spring.c * (dot3<T>(v, e) * q);
+  }
+};
+
+/// Force on end a [N]: −((s·q)·e). End b feels the exact opposite.
+template <class T>
+Vector<T> spring_force(const SpringConstants<T>& spring, const Vector<T>& e, const Vector<T>& v) {
+  const SpringTension<T> at(spring, e, v);
+  if (!at.acts) return Vector<T>::Zero();
+  return -((at.s * at.q) * e);
 }
 
-/// Force on end a and Jacobian of a spring whose vector at the step's end is e and whose relative velocity is
-/// v.
+/// The same with the Jacobian, where e and v are those at the end of a step h.
 template <class T>
-std::pair<Vector<T>, SpringJacobian<T>> linearised(const SpringConstants<T>& spring, T h, const Vector<T>& e,
+std::pair<Vector<T>, SpringJacobian<T>> linearized(const SpringConstants<T>& spring, T h, const Vector<T>& e,
                                                    const Vector<T>& v) {
   const Vector<T> none = Vector<T>::Zero();
-  const T L = norm3<T>(e);
-  if (L == T(0) || (spring.cord && L < spring.r)) return {none, {T(0), T(0), none}};
-  const T q = T(1) / L;
-  const T s = spring.k * (L - spring.r) + spring.c * (dot3<T>(v, e) * q);
-  const Vector<T> f = -((s * q) * e);
+  const SpringTension<T> at(spring, e, v);
+  if (!at.acts) return {none, {T(0), T(0), none}};
   const T along = (h * h) * spring.k + h * spring.c;
-  const T across = s > T(0) ? (h * h) * (s * q) : T(0);
-  return {f, {along, across, Vector<T>(q * e)}};
+  const T across = at.s > T(0) ? (h * h) * (at.s * at.q) : T(0);
+  return {-((at.s * at.q) * e), {along, across, Vector<T>(at.q * e)}};
+}
+
+/// ½k(L − r)² [J]; 0 of a slack cord.
+template <class T>
+T spring_energy(const SpringConstants<T>& spring, T L) {
+  const T stretch = L - spring.r;
+  return spring.cord && stretch < T(0) ? T(0) : T(0.5) * spring.k * stretch * stretch;
 }
 
 }  // namespace aspic::physics

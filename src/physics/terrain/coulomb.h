@@ -4,7 +4,7 @@
 // A particle that rests on the ground when a step begins feels a reaction inside every force evaluation: with
 // it, the step would end without approach and within the friction cone. Particles that arrive bounce at the
 // step's end. Every expression has one order of operations, which the kernels follow
-// (shaders/compute/coulomb.glsl).
+// (shaders/compute/terms/coulomb.glsl).
 #include "physics/terrain/ground.h"
 
 namespace aspic::physics {

@@ -3,7 +3,7 @@
 // particle. P leaves a velocity as it is unless the step would end below a surface; then it stops the
 // particle there, within the friction cone. The motion left to it is the space in which the linear
 // system is solved (docs/physics.md). Every expression has one order of operations, which the kernels follow
-// (shaders/compute/implicit_ground.glsl).
+// (shaders/compute/terms/implicit_ground.glsl).
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // A ball and a terrain: src/physics/balls/law.h in GLSL.
-#include "compute/terrain.glsl"
+#include "compute/terms/terrain.glsl"
 
 // At the step's start or end: AT_START, AT_END.
 vec4 ball_gap(uint t, uint end, float radius, vec3 x) {

@@ -61,8 +61,8 @@ bool crosses(uint t, vec3 x, Reaction r) {
   return dot3(r.v, g.xyz) < least_speed_of(t, g);
 }
 
-#include "compute/implicit_hold.glsl"
-#include "compute/implicit_join.glsl"
+#include "compute/terms/implicit_hold.glsl"
+#include "compute/terms/implicit_join.glsl"
 
 // P of a particle of mass m at x, with free velocity v.
 Reaction react(vec3 x, float m, vec3 v) {

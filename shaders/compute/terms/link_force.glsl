@@ -3,7 +3,7 @@
 //   f = −(k − q·(k·r − c·((v·e)·q)))·e,  q ≈ 1/L
 // with the device's reciprocal root, in the order and with the fused operations that its compiler likes best. A spring
 // shorter than 1e-15 m counts as that long, so that one of no length pulls nowhere.
-#include "compute/spring.glsl"
+#include "compute/terms/springs.glsl"
 
 #ifdef ASPIC_FAST
 vec4 link_force(SpringClass spring, vec3 x_a, vec3 v_a, vec3 x_b, vec3 v_b) {

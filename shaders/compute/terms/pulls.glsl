@@ -1,6 +1,6 @@
 // The pulls of include/aspic/inputs.h, summed after a particle's springs in the order of the list: springs of rest length 0
 // whose other end rests at the anchor.
-#include "compute/spring.glsl"
+#include "compute/terms/springs.glsl"
 
 layout(std140, binding = BINDING_PULLS) uniform PullBlock {
   uint pull_count;

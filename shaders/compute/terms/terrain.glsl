@@ -22,7 +22,7 @@ float bounce_speed(uint t, float m, float u) {
   return bounced > 0.0 ? bounced : 0.0;
 }
 
-#include "compute/coulomb.glsl"
+#include "compute/terms/coulomb.glsl"
 
 // The course model's contact force: f [N] on a body with gap g and velocity v, resisted and after_friction by one terrain, which
 // is where it is at the step's start.

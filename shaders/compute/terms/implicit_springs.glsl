@@ -1,5 +1,6 @@
-// A spring in the linear system, see src/cpu_reference/implicit_euler.h.
-#include "compute/pull.glsl"
+// Springs and pulls in the matrix of implicit Euler: linearized() of src/physics/springs/law.h and SpringJacobian of
+// src/physics/diagonal_block.h in GLSL.
+#include "compute/terms/pulls.glsl"
 
 // −h·∂f/∂v' as seen from one end: H·d = across·d + (along − across)·n(n·d). A compressed spring's negative part across
 // its axis is left out (Choi and Ko, 2002).
@@ -10,13 +11,10 @@ struct SpringJacobian {
 };
 
 // Force on the end the vectors point to, and the Jacobian: e = spring vector at the step's end, v = relative velocity.
-vec3 linearised(SpringClass spring, vec3 e, vec3 v, out SpringJacobian H) {
+vec3 linearized(SpringClass spring, vec3 e, vec3 v, out SpringJacobian H) {
   H = SpringJacobian(0.0, 0.0, vec3(0.0));
-  precise vec2 root = exact_sqrt_rcp(dot3(e, e));
-  precise float L = root.x;
-  if (L == 0.0 || (spring.cord != 0u && L < spring.rest_length)) return vec3(0.0);
-  precise float q = root.y;
-  precise float s = spring.stiffness * (L - spring.rest_length) + spring.damping * (dot3(v, e) * q);
+  precise float q, s;
+  if (!spring_tension(spring, e, v, q, s)) return vec3(0.0);
   precise vec3 f = -((s * q) * e);
   precise float along = (time_step * time_step) * spring.stiffness + time_step * spring.damping;
   precise float stretched = (time_step * time_step) * (s * q);
@@ -27,9 +25,9 @@ vec3 linearised(SpringClass spring, vec3 e, vec3 v, out SpringJacobian H) {
 
 // The same of a pull, for its particle where the step began and its trial velocity: the other end neither moves nor
 // gives way.
-vec3 linearised_pull(Pull pull, vec3 x, vec3 v, out SpringJacobian H) {
+vec3 linearized(Pull pull, vec3 x, vec3 v, out SpringJacobian H) {
   precise vec3 e = (x - pull.anchor.xyz) + time_step * v;
-  precise vec3 f = linearised(spring_of(pull), e, v, H);
+  precise vec3 f = linearized(spring_of(pull), e, v, H);
   return f;
 }
 
