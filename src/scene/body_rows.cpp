@@ -240,9 +240,10 @@ Rows voxel_rows() {
             "(x); '.', '0' and ' ' are empty.")),
         cell_file()},
        mesh_rows(),
-       {fixed(word<piece_choices>("voxels[].pieces", FIELD(model.voxels[i].pieces),
-                                  "What becomes of cells that share no face with the others: the scene is "
-                                  "refused, the largest piece is kept, or all are.")),
+       {fixed(
+            word<piece_choices>("voxels[].pieces", FIELD(model.voxels[i].pieces),
+                                "Cells that share no face with the others: refuse rejects the scene, largest "
+                                "keeps the largest piece, all keeps every piece.")),
         BODY_FRICTION("voxels", voxels[i]),
         fixed(pins("voxels", row("voxels[].pinned", FIELD(model.voxels[i].pinned),
                                  "Particles that never move: faces, corners such as left-top-front, or local "

@@ -28,9 +28,9 @@ Rows root_rows() {
       fixed(schema),
       fixed(absent("the file's name without extension",
                    row("name", FIELD(name), "Title of the scene in windows and reports."))),
-      absent("nobody is named", row("author", FIELD(author),
-                                    "Name or number of its author, shown in films and on a report's first "
-                                    "page.")),
+      absent("no name", row("author", FIELD(author),
+                            "Name or number of its author, shown in videos and on a report's first "
+                            "page.")),
   };
 }
 
@@ -46,7 +46,7 @@ Rows simulation_rows() {
       row("simulation.drag", "1/s", {0.0, 1000.0}, FIELD(model.simulation.drag),
           "Linear drag γ: the force -γ·m·v on every particle and ball."),
       row("simulation.steps-per-frame", "", {1, 100000}, FIELD(model.simulation.steps_per_frame),
-          "Time steps between two pictures in the window."),
+          "Time steps between two frames in the window."),
       row("simulation.implicit.newton-iterations", "", {1, 1000},
           FIELD(model.simulation.implicit.newton_iterations),
           "Largest number of Newton iterations in an implicit Euler step."),
@@ -168,15 +168,16 @@ Rows view_rows() {
     const auto& name = std::get<std::string>(value);
     scene.view.follow = name == "none" ? std::nullopt : std::optional(name);
   };
-  Parameter position = row("view.camera.position", "m", within(far), FIELD(view.camera.position),
-                           "Position of the camera. Where a file gives neither this nor a target, both show "
-                           "the bodies as they start.");
+  Parameter position =
+      row("view.camera.position", "m", within(far), FIELD(view.camera.position),
+          "Position of the camera. Without this and a target, the camera shows the bodies as "
+          "they start.");
   position.write = [](const Parameter&, Scene& scene, std::size_t, const Value& value) {
     scene.view.camera.position = std::get<Vec3>(value);
     scene.view.aimed = false;
   };
   Parameter target = row("view.camera.target", "m", within(far), FIELD(view.camera.target),
-                         "Point at the centre of the picture.");
+                         "Point at the center of the image.");
   target.write = [](const Parameter&, Scene& scene, std::size_t, const Value& value) {
     scene.view.camera.target = std::get<Vec3>(value);
     scene.view.aimed = false;
@@ -190,25 +191,25 @@ Rows view_rows() {
           "Perspective, or orthographic: parallel, as high as the field of view is at the target."),
       draw,
       follow,
-      word<view_colours>("view.colour", FIELD(view.colour), "What the colours of bodies mean."),
+      word<view_colours>("view.colour", FIELD(view.colour), "Quantity that the colors of bodies show."),
       word<cut_insides>("view.cut.inside", FIELD(view.cut.inside),
-                        "What a cut shows of the bodies' inside: a filled section in their colours, or the "
-                        "springs before one; off: nothing is cut."),
+                        "Inside of bodies in a cut: a filled section in their colors, or the springs before "
+                        "one; off: no cut."),
       direction(row("view.cut.normal", FIELD(view.cut.normal),
                     "Normal of the cut's plane; the side that it points to is not drawn.")),
       row("view.cut.offset", "m", within(far), FIELD(view.cut.offset),
           "Distance of the cut's plane from the world's origin, along its normal."),
       row("view.terrain", FIELD(view.terrain), "Whether terrain is drawn; bodies touch it in either case."),
-      row("view.axes", FIELD(view.axes), "Whether the world's axes are drawn in a corner of the picture."),
+      row("view.axes", FIELD(view.axes), "Whether the world's axes are drawn in a corner of the image."),
       arrows,
-      absent("as long as the picture has room for",
+      absent("as long as fits the image",
              row("view.arrow-scale", "N/m", {0.0, 1e12, true}, FIELD(view.arrow_scale),
                  "Force that an arrow of a metre represents.")),
       word<scale_maps>("view.scale.map", FIELD(view.scale.map),
                        "Colours of the scale; automatic: blue-red for signed strain, else violet-yellow."),
       word<scale_ranges>("view.scale.range", FIELD(view.scale.range),
-                         "Values at the ends of the scale: fixed for the run, those of each picture "
-                         "(automatic), or those of each picture with 0 in the middle (symmetric)."),
+                         "Values at the ends of the scale: fixed for the run, those of each image "
+                         "(automatic), or those of each image with 0 in the middle (symmetric)."),
       absent("suits the scene",
              row("view.scale.from", "", within(1e12), FIELD(view.scale.from),
                  "Value at the lower end of a fixed scale, in N, J or m/s; strain as a ratio.")),
