@@ -1,0 +1,203 @@
+#include "repository/prose_lint.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <utility>
+
+namespace aspic::testing {
+namespace {
+
+struct Term {
+  std::string_view words;  ///< lower case; the first of several forms
+  std::string_view forms;  ///< endings of further forms, apart by spaces
+  std::string_view better;
+};
+constexpr Term terms[] = {
+    {"by the clock", "", "wall-clock time"},
+    {"processor", "s", "CPU or CPU core"},
+    {"picture", "s", "image or frame"},
+    {"film", "s ed ing", "video"},
+    {"rub", "s bed bing", "friction"},
+    {"squash", "es ed", "compression"},
+    {"room", "s", "module"},
+    {"drawer", "s", "render worker"},
+    {"beside", "", "next to"},
+    {"nobody", "", "name who acts"},
+    {"nothing but", "", "only"},
+    {"goes on", "", "continues"},
+    {"go on", "", "continue"},
+    {"so many", "", "state the number"},
+    {"that many", "", "state the number"},
+    {"is told", "", "say who reports"},
+    {"are told", "", "say who reports"},
+    {"is looked at", "", "say who inspects"},
+    {"are looked at", "", "say who inspects"},
+    {"is none of", "", "state the fact"},
+    {"are none of", "", "state the fact"},
+    {"kept state", "", "window settings"},
+};
+constexpr std::string_view openings[] = {"What", "Of", "Refused", "So"};
+constexpr int most_words = 30;
+
+bool is_letter(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// A line without code, link targets, images and labels.
+std::string prose_of(const std::string& line) {
+  static const std::regex code("`[^`]*`"), target(R"(\]\([^)]*\))"), label(R"((^|[^*])\*[^* ][^*]*\*)");
+  std::string text = std::regex_replace(line, code, "`");
+  text = std::regex_replace(text, target, "]");
+  return std::regex_replace(text, label, "$1`");
+}
+
+/// Lower-case words with a space before and behind each.
+std::string words_of(const std::string& prose) {
+  std::string words = " ";
+  for (const char c : prose) {
+    if (is_letter(c))
+      words += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (words.back() != ' ')
+      words += ' ';
+  }
+  return words + ' ';
+}
+
+/// Sentences of a line: a cell of a table, or up to a full stop or colon, without what marks lists and
+/// headings.
+std::vector<std::string> sentences_of(const std::string& prose) {
+  std::vector<std::string> found(1);
+  for (std::size_t i = 0; i < prose.size(); ++i) {
+    const bool cell = prose[i] == '|' && (i == 0 || prose[i - 1] != '\\');
+    if (!cell) found.back() += prose[i];
+    const bool stop = std::string_view(".:!?").find(prose[i]) != std::string_view::npos &&
+                      (i + 1 == prose.size() || prose[i + 1] == ' ');
+    if (cell || stop) found.emplace_back();
+  }
+  for (std::string& sentence : found) {
+    const auto start = std::ranges::find_if(sentence, [](char c) { return is_letter(c) || c == '`'; });
+    sentence.erase(sentence.begin(), start);
+  }
+  return found;
+}
+
+/// Words and numbers of a sentence; other symbols, as of formulas, do not count.
+int length_of(const std::string& sentence) {
+  static constexpr std::string_view marks = ".,;:'\"()*/%[]_-`";
+  int count = 0;
+  std::istringstream words(sentence);
+  for (std::string word; words >> word;) {
+    const auto plain = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) || marks.find(c) != std::string_view::npos;
+    };
+    count += std::ranges::all_of(word, plain) &&
+             std::ranges::any_of(word, [](char c) { return is_letter(c) || c == '`'; });
+  }
+  return count;
+}
+
+class Page {
+ public:
+  explicit Page(Readers readers) : readers_(readers) {}
+
+  void prose(int line, const std::string& text) {
+    const std::string plain = prose_of(text), words = words_of(plain);
+    for (const Term& term : terms) {
+      std::istringstream endings{std::string(term.forms)};
+      std::string ending;
+      do {
+        if (words.find(" " + std::string(term.words) + ending + " ") != std::string::npos)
+          add(line, "term", std::string(term.words) + ending + ": " + std::string(term.better));
+      } while (endings >> ending);
+    }
+    for (const std::string& sentence : sentences_of(plain)) {
+      for (const std::string_view opening : openings)
+        if (sentence.starts_with(opening) && !is_letter(sentence[opening.size()]))
+          add(line, "opening", sentence);
+      if (const int length = length_of(sentence); readers_ == Readers::users && length > most_words)
+        add(line, "length", std::to_string(length) + " words: " + sentence);
+    }
+    static const std::regex code("`(aspic [^`]*)`");
+    for (std::sregex_iterator span(text.begin(), text.end(), code), end; span != end; ++span)
+      command(line, span->str(1));
+  }
+
+  /// A line of a block; several that end in a backslash are one.
+  void block(int line, std::string text) {
+    const bool more = text.ends_with('\\');
+    if (more) text.pop_back();
+    if (joined_.empty()) first_ = line;
+    joined_ += text;
+    if (more) return;
+    static const std::regex program(
+        R"(^\s*(sudo )?(\w+=\S+ )*(aspic|build/\S+|scripts/\S+|tests/\S+|cmake|ctest|python3?|pip|dask|blender) .*)");
+    if (std::regex_match(joined_, program)) command(first_, joined_);
+    joined_.clear();
+  }
+
+  std::vector<Offence> take() {
+    std::ranges::stable_sort(found_, {}, &Offence::line);
+    return std::move(found_);
+  }
+
+ private:
+  void command(int line, const std::string& text) {
+    static const std::regex quoted(R"('[^']*'|"[^"]*"|\[[A-Z]+\])"), comment(R"((^|\s)#.*)"),
+        output(R"((--(video|frames|page|page-live|state|series|checkpoint|export|out|runs)|>)[ =](\S+))");
+    const std::string bare = std::regex_replace(std::regex_replace(text, quoted, "'"), comment, "");
+    if (bare.find_first_of("[]{}") != std::string::npos) add(line, "bracket", text);
+    for (std::sregex_iterator at(bare.begin(), bare.end(), output), end; at != end; ++at) {
+      const auto [first, is_new] = outputs_.emplace(at->str(3), line);
+      if (!is_new) add(line, "output", at->str(3) + " is written in line " + std::to_string(first->second));
+    }
+  }
+
+  void add(int line, std::string rule, std::string text) {
+    found_.push_back({line, std::move(rule), std::move(text)});
+  }
+
+  Readers readers_;
+  std::vector<Offence> found_;
+  std::map<std::string, int> outputs_;
+  std::string joined_;
+  int first_ = 0;
+};
+
+}  // namespace
+
+std::vector<Offence> lint_prose(std::string_view text, Readers readers) {
+  Page page(readers);
+  std::istringstream lines{std::string(text)};
+  bool fenced = false;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.starts_with("```"))
+      fenced = !fenced;
+    else if (fenced || line.starts_with("    "))
+      page.block(number, line);
+    else
+      page.prose(number, line);
+  }
+  return page.take();
+}
+
+std::vector<std::pair<std::filesystem::path, Readers>> prose_pages(const std::filesystem::path& root) {
+  const std::string list = contents(root / "docs/README.md");
+  const std::string developers = list.substr(list.find("## Developers"));
+  std::vector<std::pair<std::filesystem::path, Readers>> pages;
+  for (const std::filesystem::path& file : written_files(root)) {
+    if (file.extension() != ".md") continue;
+    const bool in_docs = file.parent_path() == "docs";
+    if (!in_docs && file != "README.md" && file != "CONTRIBUTING.md") continue;
+    const bool listed =
+        in_docs && developers.find("](" + file.filename().string() + ")") != std::string::npos;
+    pages.emplace_back(file, listed ? Readers::developers : Readers::users);
+  }
+  return pages;
+}
+
+}  // namespace aspic::testing

@@ -1,0 +1,24 @@
+#pragma once
+// A lint of the prose of pages: the rules of CONTRIBUTING.md that a program can check.
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "repository/text_lint.h"
+
+namespace aspic::testing {
+
+/// Readers of a page. Sentences of user pages have a limit.
+enum class Readers { users, developers };
+
+/// Offences of a Markdown page in the order of lines. Code, link targets and labels of the window (*Label*)
+/// are no prose. term: a word that misleads, with its replacement. opening: a sentence that begins with What,
+/// Of, Refused or So. length: a sentence of more than 30 words; symbols do not count. bracket: an unquoted [,
+/// ], { or } in a shell command. output: a name that two commands of the page write.
+std::vector<Offence> lint_prose(std::string_view page, Readers readers);
+
+/// README.md, CONTRIBUTING.md and all pages of docs, as paths below `root`, with their readers: developers
+/// for the pages that docs/README.md lists under *Developers*.
+std::vector<std::pair<std::filesystem::path, Readers>> prose_pages(const std::filesystem::path& root);
+
+}  // namespace aspic::testing

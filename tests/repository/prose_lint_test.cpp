@@ -1,0 +1,81 @@
+#include "repository/prose_lint.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace aspic::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::vector<std::string> rules_broken(const std::string& page, Readers readers = Readers::users) {
+  std::vector<std::string> rules;
+  for (const Offence& offence : lint_prose(page, readers))
+    rules.push_back(std::to_string(offence.line) + ": " + offence.rule);
+  return rules;
+}
+
+std::string repeated(const std::string& word, int times) {
+  std::string text;
+  for (int i = 0; i < times; ++i) text += word + " ";
+  return text;
+}
+
+TEST(ProseLint, FindsTermsInProseAlone) {
+  const auto found = lint_prose("A step.\nTwo *large* pictures, by the clock.\n", Readers::users);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].text, "by the clock: wall-clock time");
+  EXPECT_EQ(found[1].text, "pictures: image or frame");
+  EXPECT_THAT(rules_broken("It goes on\nRubbing, or a Film.\n| no | that many |\n"),
+              ElementsAre("1: term", "2: term", "2: term", "3: term"));
+  EXPECT_THAT(rules_broken("`pictures` [a](pictures.md) *Film* roomy pictured\n\n    film\n```\nfilm\n```\n"),
+              IsEmpty());
+}
+
+TEST(ProseLint, FindsOpenings) {
+  EXPECT_THAT(rules_broken("## What is said\nA. Of these\n- **So** it is\n| a | Refused |\n"),
+              ElementsAre("1: opening", "2: opening", "3: opening", "4: opening"));
+  EXPECT_THAT(rules_broken("Software and Offers. Whatever\nSay what is so.\n"), IsEmpty());
+}
+
+TEST(ProseLint, CountsWordsOfSentencesOfUserPages) {
+  const std::string long_one = repeated("word", 31), two = repeated("word", 16) + ". " + repeated("word", 16);
+  EXPECT_THAT(rules_broken(long_one), ElementsAre("1: length"));
+  EXPECT_THAT(rules_broken("| " + long_one + " | a |\n"), ElementsAre("1: length"));
+  EXPECT_THAT(rules_broken(long_one, Readers::developers), IsEmpty());
+  EXPECT_THAT(rules_broken(two), IsEmpty());
+  EXPECT_THAT(rules_broken(repeated("word", 30) + repeated("x₀ = √2 −", 9)), IsEmpty());
+}
+
+TEST(ProseLint, FindsUnquotedBracketsInCommands) {
+  EXPECT_THAT(rules_broken("    aspic run a --set cube[0].edge-length=2\n`aspic view --view x={a=1}`\n"),
+              ElementsAre("1: bracket", "2: bracket"));
+  EXPECT_THAT(rules_broken("```sh\nA=1 build/release/aspic run a \\\n  --set b[0]=1\n```\n"),
+              ElementsAre("2: bracket"));
+  EXPECT_THAT(
+      rules_broken(
+          "    aspic run a --set 'cube[0].x=2' \"{\"   # [0]\n    x = [1]\n`cube[0]` `aspic view [SCENE]`\n"),
+      IsEmpty());
+}
+
+TEST(ProseLint, FindsOutputsOfTheSameName) {
+  EXPECT_THAT(
+      rules_broken("    aspic run a --video a.mp4\n\n`aspic run b --frames a.mp4`\n    aspic x > a.mp4\n"),
+      ElementsAre("3: output", "4: output"));
+  EXPECT_THAT(
+      rules_broken("    aspic run a --checkpoint a.aspic\n    aspic run --resume a.aspic --state b\n"),
+      IsEmpty());
+}
+
+TEST(ProseLint, PagesAreClean) {
+  const auto pages = prose_pages(ASPIC_SOURCE_DIR);
+  EXPECT_GE(pages.size(), 30u);
+  for (const auto& [file, readers] : pages)
+    for (const Offence& offence : lint_prose(contents(ASPIC_SOURCE_DIR / file), readers))
+      ADD_FAILURE() << file.generic_string() << ":" << offence.line << ": " << offence.rule << " ("
+                    << offence.text << ")";
+}
+
+}  // namespace
+}  // namespace aspic::testing
