@@ -126,6 +126,35 @@ double largest(std::span<const Line> lines) {
   return std::isfinite(most) ? most : 0.0;
 }
 
+/// The points of a curve: of each column of pixels the first, the highest, the lowest and the last, which
+/// look like all of them.
+template <class Place>
+std::vector<ImVec2> seen(const Line& line, const Place& place) {
+  std::vector<ImVec2> points;
+  ImVec2 first, top, bottom, last;
+  bool one = true;  // in the column at hand
+  const auto end_column = [&] {
+    if (one) return;
+    points.insert(points.end(), {top.x < bottom.x ? top : bottom, top.x < bottom.x ? bottom : top, last});
+  };
+  for (const EnergySample& s : *line.samples) {
+    const ImVec2 point = place(s.time, line.value(s));
+    if (!points.empty() && std::floor(point.x) == std::floor(first.x)) {
+      if (point.y < top.y) top = point;
+      if (point.y > bottom.y) bottom = point;
+      last = point;
+      one = false;
+      continue;
+    }
+    end_column();
+    points.push_back(point);
+    first = top = bottom = last = point;
+    one = true;
+  }
+  end_column();
+  return points;
+}
+
 /// Curves over time with their scale.
 std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> lines, const char* unit,
                             std::string_view help, double now) {
@@ -165,16 +194,9 @@ std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> li
   for (const double e : ticks(low, high, tick))
     draw.AddLine(place(start, e), place(start + span, e), IM_COL32(38, 40, 43, 255));
   draw.AddLine(place(start, 0.0), place(start + span, 0.0), IM_COL32(80, 84, 90, 255));
-  // One point for each column is all that can be seen.
   draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   for (const Line& line : lines) {
-    const std::deque<EnergySample>& samples = *line.samples;
-    if (samples.empty()) continue;
-    const std::size_t stride =
-        std::max<std::size_t>(samples.size() / static_cast<std::size_t>(std::max(size.x, 1.0f)), 1);
-    for (std::size_t i = 0; i < samples.size(); i += stride)
-      draw.PathLineTo(place(samples[i].time, line.value(samples[i])));
-    draw.PathLineTo(place(samples.back().time, line.value(samples.back())));
+    for (const ImVec2& point : seen(line, place)) draw.PathLineTo(point);
     draw.PathStroke(line.colour, 0, static_cast<float>(1.5 * plot.scale));
   }
   draw.PopClipRect();

@@ -2,20 +2,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "aspic/analysis.h"
 
 namespace aspic {
 namespace {
 
-constexpr std::size_t most_samples = 2000;
+constexpr std::size_t most_differences = 2000;
+
+/// Seconds between the samples of a run.
+constexpr double interval = 0.02;
+
+/// The quantities whose extremes stay where samples are thinned.
+constexpr double (*quantities[])(const EnergySample&) = {
+    [](const EnergySample& s) { return s.measures.kinetic; },
+    [](const EnergySample& s) { return s.measures.elastic; },
+    [](const EnergySample& s) { return s.measures.gravitational; },
+    [](const EnergySample& s) { return s.measures.total(); },
+    [](const EnergySample& s) { return s.measures.contact.value_or(0.0); },
+    [](const EnergySample& s) { return s.work.value_or(0.0); },
+    [](const EnergySample& s) { return s.measures.momentum.x; },
+    [](const EnergySample& s) { return s.measures.momentum.y; },
+    [](const EnergySample& s) { return s.measures.momentum.z; },
+    [](const EnergySample& s) { return length(s.measures.momentum); },
+    [](const EnergySample& s) { return s.measures.max_speed; },
+    [](const EnergySample& s) { return s.measures.min_height; }};
+/// Two of each quantity stay, so that half of the samples go at least.
+constexpr std::size_t most_intervals = Samples::most_energies / (4 * std::size(quantities));
 
 }  // namespace
 
 std::uint64_t next_sample_step(std::uint64_t step, double timestep, std::uint64_t stride) {
-  constexpr double interval = 0.02;  // s
   const double apart = interval < 2.0 * timestep ? 1.0 : interval / timestep;
   const double steps = std::min(apart * static_cast<double>(stride), 0x1p62);
   // Beyond what a double counts in ones.
@@ -39,10 +60,34 @@ void Samples::add(const EnergySample& sample) {
   else
     place = energies_.insert(place, sample);
   add_up_work(static_cast<std::size_t>(place - energies_.begin()));
-  if (energies_.size() <= most_samples) return;
-  std::deque<EnergySample> thinner;
-  for (std::size_t i = 0; i < energies_.size(); i += 2) thinner.push_back(energies_[i]);
-  energies_ = std::move(thinner);
+  if (energies_.size() > most_energies) thin();
+}
+
+void Samples::thin() {
+  double width = interval;
+  // Of twice the length each time: what stayed in short intervals holds the extremes of long ones.
+  while ((energies_.back().time - energies_.front().time) / width > static_cast<double>(most_intervals))
+    width *= 2.0;
+  const auto interval_of = [&](const EnergySample& s) { return std::floor(s.time / width); };
+  std::deque<EnergySample> kept;
+  std::vector<std::size_t> stay;
+  for (std::size_t from = 0, to = 0; from < energies_.size(); from = to) {
+    while (to < energies_.size() && interval_of(energies_[to]) == interval_of(energies_[from])) ++to;
+    stay.clear();
+    if (from == 0) stay.push_back(0);
+    if (to == energies_.size()) stay.push_back(to - 1);
+    for (const auto quantity : quantities) {
+      const auto [least, most] =
+          std::minmax_element(energies_.begin() + static_cast<std::ptrdiff_t>(from),
+                              energies_.begin() + static_cast<std::ptrdiff_t>(to),
+                              [&](const auto& a, const auto& b) { return quantity(a) < quantity(b); });
+      for (const auto& at : {least, most}) stay.push_back(static_cast<std::size_t>(at - energies_.begin()));
+    }
+    std::ranges::sort(stay);
+    stay.erase(std::unique(stay.begin(), stay.end()), stay.end());
+    for (const std::size_t n : stay) kept.push_back(energies_[n]);
+  }
+  energies_ = std::move(kept);
 }
 
 /// Works out the sum at a sample that is new, and shifts those after it: what they add does not change.
@@ -80,7 +125,7 @@ void Samples::compare(double time, const State& leader, const State& shadow, boo
   ever_differed_ = ever_differed_ || !sample.identical;
   while (!differences_.empty() && differences_.back().time >= time) differences_.pop_back();
   differences_.push_back(sample);
-  if (differences_.size() > most_samples) differences_.pop_front();
+  if (differences_.size() > most_differences) differences_.pop_front();
 }
 
 void Samples::truncate(double time) {

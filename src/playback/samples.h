@@ -34,8 +34,10 @@ std::uint64_t next_sample_step(std::uint64_t step, double timestep, std::uint64_
 /// Samples in the order of time, one for each.
 class Samples {
  public:
-  /// The whole run stays in the plot: long runs become less dense.
+  /// Of more than most_energies those with the least and the largest of each quantity stay, in intervals of
+  /// one length over the whole run: peaks keep their height.
   const std::deque<EnergySample>& energies() const { return energies_; }
+  static constexpr std::size_t most_energies = 40'000;
   /// The one that is nearest to a time of the run [s]; null if there is none.
   const EnergySample* nearest(double time) const;
   const std::deque<DifferenceSample>& differences() const { return differences_; }
@@ -54,6 +56,7 @@ class Samples {
 
  private:
   void add_up_work(std::size_t from);
+  void thin();
 
   std::deque<EnergySample> energies_;
   std::deque<DifferenceSample> differences_;

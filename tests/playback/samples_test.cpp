@@ -60,15 +60,43 @@ TEST(Samples, KeepWorkWhereTheyBecomeLessDense) {
   ActuatorWork in_order;
   Samples plot;
   double end = 0.0;
-  for (std::uint64_t step = 0; step <= 2400; ++step) {
-    const State state = step == 0 ? *solver->state() : test::advanced(*solver, 1);
+  for (std::uint64_t step = 0; step <= Samples::most_energies; ++step) {
+    const State state = step % 100 == 0 ? test::advanced(*solver, 1) : *solver->state();
     EnergySample sample = {static_cast<double>(step), {}, step};
     sample.actuators.add(model, state);
     plot.add(sample);
     end = *in_order.add(model, state);
   }
-  EXPECT_LT(plot.energies().size(), 2000u);
+  EXPECT_LT(plot.energies().size(), Samples::most_energies);
   EXPECT_NEAR(*plot.energies().back().work, end, 1e-9 * std::abs(end));
+}
+
+// An hour of a body that hits the ground after 1.28 s, with another peak and a dip late in the run.
+TEST(Samples, KeepPeaksAndAllPartsOfALongRun) {
+  constexpr std::uint64_t count = 180'000, impact = 64, peak = 100'003, dip = 150'001;
+  Samples plot;
+  for (std::uint64_t n = 0; n <= count; ++n) {
+    EnergySample sample = {0.02 * static_cast<double>(n), {}, n};
+    sample.measures.kinetic = n == impact ? 1000.0
+                              : n == peak ? 500.0
+                                          : 1.0 + 1e-6 * static_cast<double>(n % 7);
+    sample.measures.momentum.y = n == dip ? -3.0 : 0.0;
+    plot.add(sample);
+  }
+  const auto& kept = plot.energies();
+  EXPECT_LE(kept.size(), Samples::most_energies);
+  const auto value = [&](std::uint64_t n) { return plot.nearest(0.02 * static_cast<double>(n))->measures; };
+  EXPECT_EQ(value(impact).kinetic, 1000.0);
+  EXPECT_EQ(value(peak).kinetic, 500.0);
+  EXPECT_EQ(value(dip).momentum.y, -3.0);
+  EXPECT_EQ(kept.front().step, 0u);
+  EXPECT_EQ(kept.back().step, count);
+  double longest = 0.0;
+  for (std::size_t n = 1; n < kept.size(); ++n) {
+    ASSERT_GT(kept[n].time, kept[n - 1].time);
+    longest = std::max(longest, kept[n].time - kept[n - 1].time);
+  }
+  EXPECT_LE(longest, 20.0) << "parts of the run are missing";
 }
 
 TEST(Samples, HaveNoWorkWithoutActuators) {
