@@ -55,8 +55,8 @@ draw contacts 1.4 cube-plane --view 'arrows=["contacts"]' --view axes=true --vie
 draw penalty 1.4 penalty
 draw cube-and-balls 0.7 cube-and-balls
 draw beside 1.72 cube-plane --set cube[0].structural.damping=1 --set cube[0].shear.damping=1 --set cube[0].bending.damping=1 \
-  --beside integrator=implicit-euler --view 'camera={position=[10,5,14],target=[0,2.4,0],fov=45}'
-draw beside-four 1.5 cube-plane --beside integrator=implicit-euler --beside h=0.0005 --beside k=8000
+  --variant integrator=implicit-euler --view 'camera={position=[10,5,14],target=[0,2.4,0],fov=45}'
+draw beside-four 1.5 cube-plane --variant integrator=implicit-euler --variant h=0.0005 --variant k=8000
 draw cube-torus 0.95 cube-torus
 draw cube-hole 1.3 cube-hole
 draw elevator 2 elevator
@@ -88,12 +88,12 @@ chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --blink-setting
 ffmpeg -v error -y -i "$work/report.png" -vf scale=960:-1 -q:v 6 "$images/report.jpg"
 echo "docs/images/report.jpg" >&2
 
-"$aspic_build_dir/aspic" run cube-plane --view colour=strain --page "$work/page.html" >&2
-"$aspic_build_dir/aspic" run cube-plane --beside integrator=implicit-euler --beside k=8000 --page "$work/page-beside.html" >&2
+"$aspic_build_dir/aspic" run cube-plane --view colour=strain --html "$work/page.html" >&2
+"$aspic_build_dir/aspic" run cube-plane --variant integrator=implicit-euler --variant k=8000 --html "$work/page-beside.html" >&2
 /usr/bin/python3 tests/page/shoot.py "$work/page.html" 1.36 "$work/page.png" "$work/page-beside.html" 1.5 "$work/page-beside.png"
 "$aspic_root/scripts/wasm.sh"
 aspic_build ON programs
-"$aspic_build_dir/aspic" run cube-plane --view colour=strain --page-live "$work/page-live.html" >&2
+"$aspic_build_dir/aspic" run cube-plane --view colour=strain --html-live "$work/page-live.html" >&2
 /usr/bin/python3 tests/page/shoot.py "$work/page-live.html" 1.36 "$work/page-live.png"
 for picture in page page-beside page-live; do
   ffmpeg -v error -y -i "$work/$picture.png" -q:v 4 "$images/$picture.jpg"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Makes build/wasm/aspic.wasm, the reference solver as WebAssembly, which pages of --page-live run; the next build embeds it. The compiler
+# Makes build/wasm/aspic.wasm, the reference solver as WebAssembly, which pages of --html-live run; the next build embeds it. The compiler
 # comes from PyPI (ziglang, in the environment build/wasm/python), since Debian 12's clang has no WASI library and Debian 13's Emscripten
 # a C++ library without ranges. Where PyPI is out of reach it says so and ends with exit code 1: then the program is built without the
-# module, --page-live says how to get it, and its tests are left out. Nothing is made again that is up to date.
+# module, --html-live says how to get it, and its tests are left out. Nothing is made again that is up to date.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 wanted=ziglang==0.17.1

@@ -122,7 +122,7 @@ def run(*words: str) -> str:
 def has_module() -> bool:
     """Whether the program can write live pages."""
     with tempfile.TemporaryDirectory() as work:
-        words = ["run", "cube-plane", "--steps", "1", "--page-live", f"{work}/page.html"]
+        words = ["run", "cube-plane", "--steps", "1", "--html-live", f"{work}/page.html"]
         return subprocess.run([PROGRAM, *words], capture_output=True).returncode == 0
 
 
@@ -148,7 +148,7 @@ def write_scenes(wanted: list[str]) -> None:
     if unknown := (set(wanted) | set(SMALLER)) - {scene["name"] for scene in scenes}:
         sys.exit(f"There is no built-in scene {', '.join(sorted(unknown))}.")
     scenes = [scene for scene in scenes if not wanted or scene["name"] in wanted]
-    kinds = {"live": "--page-live", "recorded": "--page"} if has_module() else {"recorded": "--page"}
+    kinds = {"live": "--html-live", "recorded": "--html"} if has_module() else {"recorded": "--html"}
     for folder in (SOURCE / "images", PAGES / "live", PAGES / "recorded"):
         folder.mkdir(parents=True, exist_ok=True)
     for page in PAGES.glob("*/*.html"):

@@ -414,7 +414,7 @@ class Simulation(Replayable):
         """
         count = self._steps_of(duration, steps)
         pace(fps, speed)
-        words = ["--page-live" if live else "--page", name_of(path)]
+        words = ["--html-live" if live else "--html", name_of(path)]
         for word, value, usual in (("--fps", fps, 60.0), ("--speed", speed, 1.0)):
             words += [] if value == usual else [word, repr(value)]
         command = page_command(self, count, words)

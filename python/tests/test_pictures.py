@@ -187,7 +187,7 @@ def test_a_page_has_the_command_that_repeats_it(
     changed = scene.copy({"view.colour": "strain", "contact.friction": 0.25, "cube[0].rotation.axis": [0, 1, 0.5]})
     sim = aspic.Simulation(changed, "cpu")
     aspic_, *words = shlex.split(command_of(sim, fps=20.0))
-    assert aspic_ == "aspic" and words[-6:] == ["--steps", "30", "--page", "p.html", "--fps", "20.0"]
+    assert aspic_ == "aspic" and words[-6:] == ["--steps", "30", "--html", "p.html", "--fps", "20.0"]
     page = text_of("p.html")
     assert program(*words, "--force")["state_hash"] == sim.hash
     # Also the page's bytes, but for the command, in which there is --force and --json.

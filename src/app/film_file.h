@@ -56,7 +56,7 @@ class FilmFile {
 /// pulls. Errors: io; of a live page also check_live(), usage: there are several runs.
 Result<std::unique_ptr<FilmFile>> start_film_page(const std::string& path, ComparisonView& view,
                                                   page::PageSettings settings);
-/// The states in a format of motions, of runs compared each in its own, numbered as aspic run --beside does.
+/// The states in a format of motions, of runs compared each in its own, numbered as aspic run --variant does.
 /// Error (io).
 Result<std::unique_ptr<FilmFile>> start_film_states(const std::string& path, const StateFormat& format,
                                                     const Comparison& comparison);

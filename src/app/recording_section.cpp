@@ -117,7 +117,7 @@ std::string free_state_name(const std::string& source, std::string_view ending,
 }
 
 /// Writes the state now, or with a format over time the energies of the plot, to a file; of runs compared
-/// each to its own, numbered as aspic run --beside does. A message says what became of it.
+/// each to its own, numbered as aspic run --variant does. A message says what became of it.
 void save(const StateFormat& format, const std::string& path, Overwrite overwrite,
           PlaybackSession& simulation, ComparisonView& comparison_view, Messages& messages) {
   const Comparison& comparison = comparison_view.comparison();
@@ -204,12 +204,12 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
   check_box(gui, "for browsers", "record/page", film.settings.page,
             "Writes the film's states as a page as well, of the same name: one HTML file that browsers open, "
             "to be turned "
-            "and played there, as aspic run --page writes it. It ends where the model becomes another, or "
+            "and played there, as aspic run --html writes it. It ends where the model becomes another, or "
             "the run goes back.");
   label_column("Live page");
   check_box(gui, "simulates", "record/live", film.settings.live,
             "Writes a page that simulates what is filmed in the browser, with sliders, as aspic run "
-            "--page-live writes it, and compares its bits with those of this machine. It ends where a hand "
+            "--html-live writes it, and compares its bits with those of this machine. It ends where a hand "
             "pulls, too.");
   states_widget(gui, film.settings);
   if (film.completing() > 0) ImGui::TextDisabled("Completing the last film …");

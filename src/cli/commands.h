@@ -16,7 +16,7 @@ inline Status execute(const ShowText& shown) {
 /// Simulates; writes the files asked for. Errors in addition to those of its parts: diverged and interrupted,
 /// both after the files are complete.
 Status execute(const RunOptions& options);
-/// The same for options with --beside.
+/// The same for options with --variant.
 Status execute_comparison(const RunOptions& options);
 
 /// Becomes the window program, aspic-view, installed next to this one. Error (no_device): it is not there.

@@ -1,4 +1,4 @@
-// aspic run --beside: several runs of a scene on one clock.
+// aspic run --variant: several runs of a scene on one clock.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,14 +46,14 @@ using HeadlessVariants = std::vector<std::unique_ptr<HeadlessVariant>>;
 
 Status refuse_what_needs_one_run(const RunOptions& options) {
   if (!options.resume_file.empty())
-    return fail(ErrorCode::usage, "--beside starts every run at the scene's start: omit --resume.");
+    return fail(ErrorCode::usage, "--variant starts every run at the scene's start: omit --resume.");
   if (!options.pictures.page_live.empty())
     return fail(ErrorCode::usage,
-                "a live page has one run: omit --beside, or write --page in place of --page-live.");
+                "a live page has one run: omit --variant, or write --html in place of --html-live.");
   for (const StateOutput& output : options.outputs)
     if (output.path.starts_with("/dev/"))
       return fail(ErrorCode::usage,
-                  "--{} {}: with --beside every run writes a separate file; name a file, such as out.csv, "
+                  "--{} {}: with --variant every run writes a separate file; name a file, such as out.csv, "
                   "which becomes out-1.csv, out-2.csv and so on.",
                   output.option, output.path);
   return {};
@@ -280,7 +280,7 @@ Status execute_comparison(const RunOptions& options) {
   std::vector<Difference> differences;
   for (const std::string& text : options.differences) {
     auto difference = parse_difference(text);
-    if (!difference) return fail(difference.error(), "--beside: {}", difference.error().what);
+    if (!difference) return fail(difference.error(), "--variant: {}", difference.error().what);
     differences.push_back(std::move(*difference));
   }
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;

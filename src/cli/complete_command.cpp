@@ -83,7 +83,7 @@ Offers values_of(const CommandFacts& command, const OptionFacts& option) {
       if (format.is_directory()) found.push_back({std::string(format.ending.substr(1)), ""});
   } else if (name == "--set" || name == "--view") {
     add_keys(found, name == "--view");
-  } else if (name == "--beside" || name == "--vary") {
+  } else if (name == "--variant" || name == "--vary") {
     add(found, short_keys(), row_name, "=");
     add_keys(found, false);
   } else if (const std::size_t bar = option.value.find('|'); bar != std::string::npos) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "aspic/version.h"
 #include "base/printable.h"
@@ -51,9 +52,26 @@ std::string typed_name(const CLI::Option& option, const std::vector<std::string>
   return option.get_name();
 }
 
+/// Names that options of `run` had before 0.3, accepted until 0.4.
+constexpr std::pair<std::string_view, std::string_view> former_names[] = {
+    {"--beside", "--variant"}, {"--page", "--html"}, {"--page-live", "--html-live"}};
+
+/// A word with the present name of its option.
+std::string renamed(const std::string& word) {
+  const std::size_t end = std::min(word.find('='), word.size());
+  for (const auto& [former, present] : former_names)
+    if (std::string_view(word).substr(0, end) == former) return std::string(present) + word.substr(end);
+  return word;
+}
+
 }  // namespace
 
 Result<Command> parse_arguments(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv, argv + argc);
+  if (argc > 2 && words[1] == "run") std::ranges::transform(words, words.begin(), renamed);
+  std::vector<const char*> pointers;
+  for (const std::string& word : words) pointers.push_back(word.c_str());
+  argv = pointers.data();
   std::optional<Result<Command>> result;
   CommandTable table([&](const CLI::App& command, const std::function<Result<Command>()>& complete) {
     table.raw.given = given_options(option_names(command), {argv + 1, argv + argc});

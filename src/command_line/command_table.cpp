@@ -98,9 +98,9 @@ void add_pictures(CLI::App* c, RunOptions& run, RawOptions& raw) {
   add(c, "--video", "FILE", pictures.video,
       fmt::format("write a video: {} (needs ffmpeg)", film_endings(false)));
   add(c, "--frames", "DIR", pictures.frames, "write numbered pictures into a directory");
-  add(c, "--page", "FILE", pictures.page,
-      "write a page for browsers (.html): orbit, play, colours, energies; with --beside all runs in one");
-  add(c, "--page-live", "FILE", pictures.page_live,
+  add(c, "--html", "FILE", pictures.page,
+      "write a page for browsers (.html): orbit, play, colours, energies; with --variant all runs in one");
+  add(c, "--html-live", "FILE", pictures.page_live,
       "the same, but the browser simulates, with sliders, and compares its bits with this run's");
   add(c, "--frames-format", "NAME", raw.frames_format, film_endings(true));
   add(c, "--fps", "F", pictures.fps, "pictures per second shown; default 60, for a GIF 50");
@@ -132,7 +132,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add_overrides(c, run.overrides);
   add_outputs(c, run.outputs);
   add_pictures(c, run, raw);
-  add(c, "--beside", "KEY=VALUE", run.differences,
+  add(c, "--variant", "KEY=VALUE", run.differences,
       "a further run with this difference, e.g. integrator=implicit-euler, h=0.002; up to three");
   add(c, "--resume", "FILE", run.resume_file,
       "continue from a checkpoint; --steps and --duration count from the scene's start");

@@ -48,7 +48,7 @@ Status check_pictures_wanted(const PictureOutput& pictures, const RawOptions& ra
       return usage("{} is for pictures: add --video FILE or --frames DIR, or leave it out.", option);
   for (const std::string_view option : {"--fps", "--speed", "--view"})
     if (raw.gave(option) && !pictures.any() && !pictures.any_page())
-      return usage("{} is for pictures: add --video FILE, --frames DIR or --page FILE, or leave it out.",
+      return usage("{} is for pictures: add --video FILE, --frames DIR or --html FILE, or leave it out.",
                    option);
   if (raw.gave("--frames-format") && pictures.frames.empty())
     return usage("--frames-format is for --frames DIR: add it, or leave --frames-format out.");
@@ -72,8 +72,8 @@ Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
     return usage("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps);
   if (!positive(pictures.speed))
     return usage("--speed must be a finite number above 0, not {}.", pictures.speed);
-  const std::pair<std::string_view, const std::string&> pages[] = {{"--page", pictures.page},
-                                                                   {"--page-live", pictures.page_live}};
+  const std::pair<std::string_view, const std::string&> pages[] = {{"--html", pictures.page},
+                                                                   {"--html-live", pictures.page_live}};
   for (const auto& [option, path] : pages)
     if (const Status named = path.empty() ? Status() : page::check_page_name(path); !named)
       return fail(named.error(), "{}: {}", option, named.error().what);

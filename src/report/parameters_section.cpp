@@ -264,7 +264,7 @@ Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& 
       lands ? fmt::format(" at the moments of {} = {}: deepest squash, highest point after it, end", key.name,
                           words[middle])
             : "");
-  pictures.command = fmt::format("aspic run {} --beside {}=VALUE --frames DIR", words_of_scene, key.name);
+  pictures.command = fmt::format("aspic run {} --variant {}=VALUE --frames DIR", words_of_scene, key.name);
   figures.push_back(std::move(pictures));
   return figures;
 }

@@ -8,7 +8,7 @@ from attack import DEVICE, IO, OK, SCENE, TINY, all_files, hash_in, main, read, 
 
 SERIES = ["--series", "series.csv", "--every", "3", "--state", "end.csv", "--checkpoint", "end.aspic"]
 REFERENCE = ["run", "cube-plane", "--backend", "reference", *TINY, "--steps", "12", *SERIES]
-PAGED = [*REFERENCE, "--page", "run.html"]
+PAGED = [*REFERENCE, "--html", "run.html"]
 
 
 def faulty(attack, order, words, directory, **more):
@@ -107,7 +107,7 @@ def resumes(attack, bench):
 def benches(attack):
     """The same run into an empty directory, over earlier files, and from a checkpoint."""
     earlier = old_files(attack)
-    resumed = ["run", "--resume", "old.aspic", "--backend", "reference", "--steps", "12", *SERIES, "--page", "run.html"]
+    resumed = ["run", "--resume", "old.aspic", "--backend", "reference", "--steps", "12", *SERIES, "--html", "run.html"]
     return [Bench(attack, PAGED, {}), Bench(attack, [*PAGED, "--force"], earlier),
             Bench(attack, resumed, {"old.aspic": earlier["end.aspic"]})]
 

@@ -229,7 +229,7 @@ def encoders(attack):
     attack.judge(attack.run(*FILM, "--duration", "100000", "--video", "film.mp4", cwd=there, env=env, timeout=40), [IO], "a film alone that dies")
     # Side by side too.
     there = attack.fresh()
-    beside = ["--beside", "integrator=midpoint", "--state", "end.csv", "--video", "film.mp4"]
+    beside = ["--variant", "integrator=midpoint", "--state", "end.csv", "--video", "film.mp4"]
     attack.judge(attack.run(*film, *beside, cwd=there, env=env), [IO], "side by side, a film that dies")
     attack.require(names(there) == ["end-1.csv", "end-2.csv"], f"side by side, a film that dies: left {names(there)}")
 

@@ -1,4 +1,4 @@
-// aspic run --beside: each run has the bits, and its part of the film the pixels, of the run alone.
+// aspic run --variant: each run has the bits, and its part of the film the pixels, of the run alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stb_image.h>
@@ -61,8 +61,8 @@ std::string part(const Pixels& whole, int left, int top, int width, int height) 
 }
 
 TEST(Comparison, EachRunHasTheBitsOfTheRunAlone) {
-  const auto beside = run({"--duration", "0.4", "--beside", "integrator=implicit-euler", "--beside",
-                           "h=0.0016", "--beside", "backend=cpu"});
+  const auto beside = run({"--duration", "0.4", "--variant", "integrator=implicit-euler", "--variant",
+                           "h=0.0016", "--variant", "backend=cpu"});
   ASSERT_EQ(beside.exit_code, 0) << beside.err;
   const auto runs = json_of(beside)["runs"];
   ASSERT_EQ(runs.size(), 4u);
@@ -85,7 +85,7 @@ TEST(Comparison, EachRunHasTheBitsOfTheRunAlone) {
 TEST(Comparison, TheAuthorIsNamedInTheFirstPartAlone) {
   const test::TemporaryDirectory dir;
   const auto picture = [&](const std::string& name, const Words& more) {
-    Words words = {"--steps", "0", "--size", "642x240", "--beside", "h=0.002", "--frames", dir.file(name)};
+    Words words = {"--steps", "0", "--size", "642x240", "--variant", "h=0.002", "--frames", dir.file(name)};
     words.insert(words.end(), more.begin(), more.end());
     const auto finished = run(words);
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
@@ -107,9 +107,9 @@ TEST(Comparison, PartsOfThePictureAreThoseOfTheRunsAlone) {
     const auto finished = run(words);
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
   };
-  frames("both", "130x96", {"--beside", "cube[0].structural.stiffness=300"});
+  frames("both", "130x96", {"--variant", "cube[0].structural.stiffness=300"});
   // Both backends with a context of their own where they run alone, and one where they run together.
-  frames("gpu", "130x96", {"--beside", "backend=gpu"});
+  frames("gpu", "130x96", {"--variant", "backend=gpu"});
   frames("first", "64x96", {});
   frames("second", "64x96", {"--set", "cube[0].structural.stiffness=300"});
   for (const char* name : {"/frame-000000.png", "/frame-000001.png", "/frame-000002.png"}) {
@@ -132,7 +132,7 @@ TEST(Comparison, ADivergenceEndsOneRunAndNotTheFilm) {
                        "--set",      "simulation.timestep=0.003",
                        "--set",      "cube[0].structural.stiffness=20000"};
   Words beside = words, alone = words;
-  beside.insert(beside.end(), {"--beside", "integrator=implicit-euler", "--frames", dir.file("f"), "--size",
+  beside.insert(beside.end(), {"--variant", "integrator=implicit-euler", "--frames", dir.file("f"), "--size",
                                "130x96", "--fps", "20", "--series", dir.file("e.csv")});
   alone.insert(alone.end(),
                {"--set", "simulation.integrator=implicit-euler", "--series", dir.file("alone.csv")});
@@ -161,7 +161,7 @@ TEST(Comparison, ADivergenceEndsOneRunAndNotTheFilm) {
 TEST(Comparison, EachRunWritesFilesOfItsOwn) {
   const test::TemporaryDirectory dir;
   const auto beside =
-      run({"--steps", "20", "--beside", "h=0.0005", "--state", dir.file("s.csv"), "--checkpoint",
+      run({"--steps", "20", "--variant", "h=0.0005", "--state", dir.file("s.csv"), "--checkpoint",
            dir.file("c.aspic"), "--series", dir.file("e.csv"), "--every", "10"});
   ASSERT_EQ(beside.exit_code, 0) << beside.err;
   EXPECT_EQ(dir.entries(), 6u);
@@ -172,7 +172,7 @@ TEST(Comparison, EachRunWritesFilesOfItsOwn) {
   EXPECT_EQ(runs[1]["steps"], 40);  // the same time
   EXPECT_EQ(runs[1]["files"].size(), 3u);
   // A file that is there keeps all runs from starting.
-  const auto again = run({"--steps", "1000000000", "--beside", "h=0.0005", "--state", dir.file("s.csv")});
+  const auto again = run({"--steps", "1000000000", "--variant", "h=0.0005", "--state", dir.file("s.csv")});
   EXPECT_EQ(again.exit_code, 6);
   EXPECT_THAT(again.err, HasSubstr("--force"));
 }
@@ -183,12 +183,12 @@ TEST(Comparison, WhatCannotBeIsRefused) {
     EXPECT_EQ(finished.exit_code, 2) << finished.err;
     return finished.err;
   };
-  EXPECT_THAT(refused({"--beside", "k"}), HasSubstr("KEY=VALUE"));
-  EXPECT_THAT(refused({"--beside", "h=0.001", "--series", "/dev/null"}), HasSubstr("out-1.csv"));
-  EXPECT_THAT(refused({"--beside", "h=0.001", "--resume", "c.aspic"}), HasSubstr("omit --resume"));
-  EXPECT_THAT(refused({"--beside", "h=1", "--beside", "h=1", "--beside", "h=1", "--beside", "h=1"}),
+  EXPECT_THAT(refused({"--variant", "k"}), HasSubstr("KEY=VALUE"));
+  EXPECT_THAT(refused({"--variant", "h=0.001", "--series", "/dev/null"}), HasSubstr("out-1.csv"));
+  EXPECT_THAT(refused({"--variant", "h=0.001", "--resume", "c.aspic"}), HasSubstr("omit --resume"));
+  EXPECT_THAT(refused({"--variant", "h=1", "--variant", "h=1", "--variant", "h=1", "--variant", "h=1"}),
               HasSubstr("at most 3"));
-  const auto rejected = run({"--beside", "simulation.integratr=x"});
+  const auto rejected = run({"--variant", "simulation.integratr=x"});
   EXPECT_EQ(rejected.exit_code, 3);
   EXPECT_THAT(rejected.err, HasSubstr("did you mean 'integrator'"));
 }

@@ -303,7 +303,7 @@ class Reader {
     shell.environment = {{"PATH", dir_.file("bin") + ":" + (path ? path : "/usr/bin:/bin")}};
     const auto done = test::aspic({"-c", "cd '" + dir_.path().string() + "' && " + command}, shell);
     // A program without the module of scripts/wasm.sh says how to get it.
-    const bool lacks_module = command.find("--page-live") != std::string::npos && !page::live_module();
+    const bool lacks_module = command.find("--html-live") != std::string::npos && !page::live_module();
     EXPECT_EQ(done.exit_code, lacks_module ? 6 : 0)
         << example.where << ": " << example.command << "\nrun as " << command << "\n"
         << done.err << done.out;
@@ -345,7 +345,7 @@ TEST(Examples, OfPagesSayWhatElseTheyNeed) {
       }
       if (example.command.find("> " + std::string(name)) != std::string::npos) made.emplace(name);
     }
-    if (bare.find("--page-live") != std::string::npos) {
+    if (bare.find("--html-live") != std::string::npos) {
       EXPECT_THAT(example.line, testing::HasSubstr("scripts/wasm.sh")) << example.where;
     }
   }

@@ -63,7 +63,7 @@ TEST(RunExports, RefusePvdNamesThatXmlCannotHold) {
 TEST(RunExports, OfRunsSideBySideEachHasItsOwn) {
   const test::TemporaryDirectory dir;
   const auto run =
-      aspic(flag_words({"--steps", "20", "--beside", "h=0.002", "--export", dir.file("run.pc2")}));
+      aspic(flag_words({"--steps", "20", "--variant", "h=0.002", "--export", dir.file("run.pc2")}));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const char* name : {"run-1.pc2", "run-1.obj", "run-2.pc2", "run-2.obj"})
     EXPECT_GT(dir.read(name).size(), 100u) << name;

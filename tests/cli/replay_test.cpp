@@ -105,7 +105,7 @@ TEST_F(Replay, KeepsItsTimesWithAnotherTimeStep) {
 
 TEST_F(Replay, RunsSideBySideHaveItAtTheSameTime) {
   const auto beside = aspic({"run", "cube-plane", "--backend", "cpu", "--steps", "200", "--replay", log(),
-                             "--beside", "simulation.timestep=0.0005", "--state", dir_.file("s.csv")});
+                             "--variant", "simulation.timestep=0.0005", "--state", dir_.file("s.csv")});
   ASSERT_EQ(beside.exit_code, 0) << beside.err;
   const auto state = [&](const std::string& steps, const std::string& timestep) {
     (void)hash_of({"cube-plane", "--backend", "cpu", "--steps", steps, "--set",

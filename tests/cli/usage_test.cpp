@@ -202,20 +202,24 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"run", "cube-plane", "--checkpoint", "c.csv"}, 2, "must end in .aspic"},
         Failure{{"run", "cube-plane", "--series", "e.vtp"}, 2, "must end in .csv"},
         Failure{
-            {"run", "cube-plane", "--beside", "h=0.002", "--state", "x.txt"}, 2, "must end in .csv or .vtp"},
+            {"run", "cube-plane", "--variant", "h=0.002", "--state", "x.txt"}, 2, "must end in .csv or .vtp"},
         Failure{
-            {"run", "cube-plane", "--page", "x.mp4"}, 2, "--page: the page's name x.mp4 must end in .html"},
-        Failure{{"run", "cube-plane", "--page", "-"}, 2, "/dev/stdout"},
-        Failure{{"run", "cube-plane", "--beside", "h=0.002", "--page", "x.csv"}, 2, "must end in .html"},
+            {"run", "cube-plane", "--html", "x.mp4"}, 2, "--html: the page's name x.mp4 must end in .html"},
+        Failure{{"run", "cube-plane", "--html", "-"}, 2, "/dev/stdout"},
+        // Former names.
+        Failure{{"run", "cube-plane", "--page", "x.mp4"}, 2, "--html: the page's name x.mp4"},
+        Failure{{"run", "cube-plane", "--page-live=x.mp4"}, 2, "--html-live: the page's name x.mp4"},
+        Failure{{"run", "cube-plane", "--beside", "k"}, 2, "--variant: "},
+        Failure{{"run", "cube-plane", "--variant", "h=0.002", "--html", "x.csv"}, 2, "must end in .html"},
         Failure{{"run", "cube-plane", "--state", ""}, 2, "--state: the name is empty"},
         Failure{{"run", "cube-plane", "--video", ""}, 2, "--video: the name is empty"},
         Failure{{"report", "--out", ""}, 2, "--out: the name is empty"},
         // Options that would do nothing.
         Failure{{"run", "cube-plane", "--size", "64x64"}, 2, "--size is for pictures"},
         Failure{{"run", "cube-plane", "--fps", "30"}, 2, "--fps is for pictures"},
-        Failure{{"run", "cube-plane", "--page", "x.html", "--size", "64x64"}, 2, "--size is for pictures"},
-        Failure{{"run", "large-cube", "--page", "x.html", "--fps", "600"}, 2, "--fps 63 or less"},
-        Failure{{"run", "large-cube", "--beside", "h=0.0001", "--page", "x.html"}, 2, "million positions"},
+        Failure{{"run", "cube-plane", "--html", "x.html", "--size", "64x64"}, 2, "--size is for pictures"},
+        Failure{{"run", "large-cube", "--html", "x.html", "--fps", "600"}, 2, "--fps 63 or less"},
+        Failure{{"run", "large-cube", "--variant", "h=0.0001", "--html", "x.html"}, 2, "million positions"},
         Failure{{"run", "cube-plane", "--no-text"}, 2, "--no-text is for pictures"},
         Failure{{"run", "cube-plane", "--speed=0.5"}, 2, "--speed is for pictures"},
         Failure{{"run", "cube-plane", "--view", "colour=strain"}, 2, "--view is for pictures"},
@@ -268,7 +272,7 @@ TEST(Usage, AnEndingMayBeInCapitals) {
 
 TEST(Usage, PicturesThatCannotBeCountedLeaveNothingBehind) {
   const test::TemporaryDirectory dir;
-  for (const Words& more : {Words{}, {"--beside", "h=0.002"}}) {
+  for (const Words& more : {Words{}, {"--variant", "h=0.002"}}) {
     Words words = {"run",      "cube-plane",  "--backend", "reference",
                    "--frames", dir.file("z"), "--speed",   "1e-300"};
     words.insert(words.end(), more.begin(), more.end());
@@ -358,7 +362,7 @@ TEST(Usage, AutoHasOneReasonEverywhere) {
   const Words run = {"run", "cube-plane", "--steps", "1", "--json"};
   EXPECT_EQ(test::json_member(aspic(run, software).out, "backend_reason"), reason);
   Words beside = run;
-  beside.insert(beside.end(), {"--beside", "h=0.002"});
+  beside.insert(beside.end(), {"--variant", "h=0.002"});
   EXPECT_EQ(test::json_member(aspic(beside, software).out, "backend_reason"), reason);
 }
 

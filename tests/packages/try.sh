@@ -69,11 +69,11 @@ state() { aspic run cube-bowl --steps 200 --json --backend "$@" | sed -n 's/.*"s
 expect "aspic run on reference" "$(state reference)"
 expect "aspic run on cpu" "$(state cpu)"
 code=0
-aspic run cube-bowl --steps 5 --page-live live.html >"$log" 2>&1 || code=$?
+aspic run cube-bowl --steps 5 --html-live live.html >"$log" 2>&1 || code=$?
 case $code in
   0) echo "a page that simulates: $(stat -c %s live.html) bytes" ;;
-  6) grep -q scripts/wasm.sh "$log" && echo "made without pages that simulate: $(tail -n 1 "$log")" || fail "--page-live says $(cat "$log")" ;;
-  *) fail "--page-live ended with $code: $(cat "$log")" ;;
+  6) grep -q scripts/wasm.sh "$log" && echo "made without pages that simulate: $(tail -n 1 "$log")" || fail "--html-live says $(cat "$log")" ;;
+  *) fail "--html-live ended with $code: $(cat "$log")" ;;
 esac
 if [[ $(dpkg-query -W -f '${Depends}' aspic) == *egl* ]]; then fail "aspic depends on EGL: it is recommended, not needed"; fi
 # On Debian 13 GLFW brings it, with Mesa.

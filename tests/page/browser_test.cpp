@@ -28,7 +28,7 @@ void expect_shown(const std::string& browser, const std::vector<Shot>& shots, bo
   nlohmann::json jobs;
   for (const Shot& shot : shots) {
     const std::string page = directory.file(shot.golden() + ".html");
-    std::vector<std::string> words = {"run", shot.scene, "--duration", shot.time, "--page", page};
+    std::vector<std::string> words = {"run", shot.scene, "--duration", shot.time, "--html", page};
     words.insert(words.end(), shot.more.begin(), shot.more.end());
     const auto run = test::aspic(words);
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -103,7 +103,7 @@ std::vector<Shot> all_shots() {
        "springs"},
       {"cube-plane",
        "1.5",
-       {"--beside", "integrator=implicit-euler", "--beside", "k=8000", "--view", differences},
+       {"--variant", "integrator=implicit-euler", "--variant", "k=8000", "--view", differences},
        "beside"}};
   return shots;
 }

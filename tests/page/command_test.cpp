@@ -1,4 +1,4 @@
-// aspic run --page and --page-live: the files, of one run and of several.
+// aspic run --html and --html-live: the files, of one run and of several.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ test::Finished run(const Words& more) {
 TEST(RunPage, HoldsWhatTheSummarySaysAndTheCommand) {
   const test::TemporaryDirectory dir;
   const std::string path = dir.file("a b.html");
-  const auto done = run({"--steps", "100", "--page", path, "--view", "colour=strain", "--speed", "0.5"});
+  const auto done = run({"--steps", "100", "--html", path, "--view", "colour=strain", "--speed", "0.5"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr(path));
   const test::ReadPage page = test::read_page(dir.read("a b.html"));
@@ -38,16 +38,16 @@ TEST(RunPage, HoldsWhatTheSummarySaysAndTheCommand) {
   EXPECT_EQ(
       page.facts["command"],
       "aspic run cube-plane --json --set 'cube[0].particles-per-edge=3' --backend reference --steps 100 "
-      "--page '" +
+      "--html '" +
           path + "' --view colour=strain --speed 0.5");
-  EXPECT_EQ(run({"--page", path}).exit_code, 6);  // it is there
+  EXPECT_EQ(run({"--html", path}).exit_code, 6);  // it is there
 }
 
 TEST(RunPage, AResumedRunBeginsWhereItWasResumed) {
   const test::TemporaryDirectory dir;
   ASSERT_EQ(run({"--steps", "50", "--checkpoint", dir.file("c.aspic")}).exit_code, 0);
   const auto done =
-      aspic({"run", "--resume", dir.file("c.aspic"), "--steps", "100", "--page", dir.file("p.html")});
+      aspic({"run", "--resume", dir.file("c.aspic"), "--steps", "100", "--html", dir.file("p.html")});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const test::ReadPage page = test::read_page(dir.read("p.html"));
   ASSERT_EQ(page.error, "");
@@ -57,7 +57,7 @@ TEST(RunPage, AResumedRunBeginsWhereItWasResumed) {
 
 TEST(RunPage, ARunThatDivergesIsThereToItsLastGoodState) {
   const test::TemporaryDirectory dir;
-  const auto done = run({"--set", "cube[0].structural.stiffness=1e7", "--page", dir.file("p.html")});
+  const auto done = run({"--set", "cube[0].structural.stiffness=1e7", "--html", dir.file("p.html")});
   EXPECT_EQ(done.exit_code, 5) << done.err;
   const test::ReadPage page = test::read_page(dir.read("p.html"));
   ASSERT_EQ(page.error, "");
@@ -67,7 +67,7 @@ TEST(RunPage, ARunThatDivergesIsThereToItsLastGoodState) {
 
 TEST(RunPage, RunsSideBySideShareOneThatIsNotNumbered) {
   const test::TemporaryDirectory dir;
-  const auto done = run({"--duration", "0.1", "--beside", "h=0.002", "--beside", "k=1e7", "--page",
+  const auto done = run({"--duration", "0.1", "--variant", "h=0.002", "--variant", "k=1e7", "--html",
                          dir.file("p.html"), "--series", dir.file("e.csv")});
   EXPECT_EQ(done.exit_code, 5) << done.err;  // the third explodes
   EXPECT_EQ(dir.entries(), 4u);
@@ -92,7 +92,7 @@ struct RunLivePage : testing::Test {
 };
 
 TEST_F(RunLivePage, HoldsTheSceneAndTheHashesOfItsPictures) {
-  const auto done = run({"--steps", "100", "--page-live", dir.file("p.html"), "--state", dir.file("s.csv")});
+  const auto done = run({"--steps", "100", "--html-live", dir.file("p.html"), "--state", dir.file("s.csv")});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const test::ReadPage page = test::read_page(dir.read("p.html"));
   ASSERT_EQ(page.error, "");
@@ -109,7 +109,7 @@ TEST_F(RunLivePage, HoldsTheSceneAndTheHashesOfItsPictures) {
 }
 
 TEST_F(RunLivePage, LetsItsReaderChangeWhatIsLive) {
-  ASSERT_EQ(run({"--steps", "1", "--page-live", dir.file("p.html")}).exit_code, 0);
+  ASSERT_EQ(run({"--steps", "1", "--html-live", dir.file("p.html")}).exit_code, 0);
   const test::ReadPage page = test::read_page(dir.read("p.html"));
   std::vector<std::string> paths;
   for (const auto& group : page.facts["live"]["controls"])
@@ -130,7 +130,7 @@ TEST_F(RunLivePage, LetsItsReaderChangeWhatIsLive) {
 TEST_F(RunLivePage, AResumedRunStartsWithItsState) {
   ASSERT_EQ(run({"--steps", "50", "--checkpoint", dir.file("c.aspic")}).exit_code, 0);
   const auto done =
-      aspic({"run", "--resume", dir.file("c.aspic"), "--steps", "100", "--page-live", dir.file("p.html")});
+      aspic({"run", "--resume", dir.file("c.aspic"), "--steps", "100", "--html-live", dir.file("p.html")});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const test::ReadPage page = test::read_page(dir.read("p.html"));
   ASSERT_EQ(page.error, "");
@@ -141,12 +141,12 @@ TEST_F(RunLivePage, AResumedRunStartsWithItsState) {
 TEST_F(RunLivePage, RefusesWhatABrowserCannotRepeat) {
   const std::pair<Words, std::string> wrong[] = {
       {{"--precision", "double"}, "single precision"},
-      {{"--beside", "h=0.002"}, "omit --beside"},
-      {{"--page", dir.file("p.html")}, "both to be written"},
+      {{"--variant", "h=0.002"}, "omit --variant"},
+      {{"--html", dir.file("p.html")}, "both to be written"},
       {{"--fps", "1000", "--duration", "100000"}, "and velocities"},
   };
   for (const auto& [words, sentence] : wrong) {
-    Words all = {"--steps", "5", "--page-live", dir.file("p.html")};
+    Words all = {"--steps", "5", "--html-live", dir.file("p.html")};
     if (words.front() == "--fps") all.erase(all.begin(), all.begin() + 2);
     all.insert(all.end(), words.begin(), words.end());
     const auto done = run(all);
@@ -159,7 +159,7 @@ TEST_F(RunLivePage, RefusesWhatABrowserCannotRepeat) {
 TEST(RunLivePageAnyhow, APageOfAProgramWithoutTheModuleSaysWhatMakesIt) {
   const auto module = page::live_module();
   const test::TemporaryDirectory dir;
-  const auto done = run({"--steps", "5", "--page-live", dir.file("p.html")});
+  const auto done = run({"--steps", "5", "--html-live", dir.file("p.html")});
   EXPECT_EQ(done.exit_code, module ? 0 : 6) << done.err;
   if (!module) {
     EXPECT_THAT(done.err, HasSubstr("scripts/wasm.sh"));
@@ -170,7 +170,7 @@ TEST(RunPage, ADiskThatFillsCostsThePageAlone) {
   const test::TemporaryDirectory dir;
   test::ProcessOptions options;
   options.file_size_limit = 20000;  // the page's program is longer
-  const auto done = aspic({"run", "cube-plane", "--steps", "20", "--page", dir.file("p.html"), "--state",
+  const auto done = aspic({"run", "cube-plane", "--steps", "20", "--html", dir.file("p.html"), "--state",
                            dir.file("s.csv"), "--set", "cube[0].particles-per-edge=3"},
                           options);
   EXPECT_EQ(done.exit_code, 6) << done.err;

@@ -36,7 +36,7 @@ class LivePagesInBrowsers : public testing::TestWithParam<std::string> {
     const std::string path = dir_.file("page-" + std::to_string(++pages_) + ".html");
     std::vector<std::string> all = {"run"};
     all.insert(all.end(), words.begin(), words.end());
-    all.insert(all.end(), {"--page-live", path});
+    all.insert(all.end(), {"--html-live", path});
     const auto done = test::aspic(all);
     EXPECT_TRUE(done.exit_code == 0 || done.exit_code == 5) << done.err;
     return path;

@@ -195,7 +195,7 @@ TEST_F(PageTest, IsOneDocumentThatAsksForNothing) {
   Kept run("cube-plane", {"cube[0].particles-per-edge=2"}, 1);
   run.scene.name = "</script><b>&";
   run.scene.author = "A </script> \u202e B";
-  const std::string html = page_of(run, {.command = "aspic run '</script>' --page x.html"});
+  const std::string html = page_of(run, {.command = "aspic run '</script>' --html x.html"});
   EXPECT_THAT(html, HasSubstr("<title>&lt;/script&gt;&lt;b&gt;&amp;</title>"));
   EXPECT_THAT(html, HasSubstr("default-src 'none'"));
   for (const char* word : {"http:", "https:", "src=", "@import", "url(", "fetch(", "</script><b>"})
@@ -204,7 +204,7 @@ TEST_F(PageTest, IsOneDocumentThatAsksForNothing) {
   ASSERT_EQ(page.error, "");
   EXPECT_EQ(page.facts["title"], "</script><b>&");
   EXPECT_THAT(page.facts["author"].get<std::string>(), HasSubstr("\\u{202e}"));
-  EXPECT_EQ(page.facts["command"], "aspic run '</script>' --page x.html");
+  EXPECT_EQ(page.facts["command"], "aspic run '</script>' --html x.html");
   // As many elements end as begin.
   const auto count = [&](const std::string& word) {
     std::size_t n = 0;
