@@ -28,7 +28,7 @@ def blocks(page: str) -> list[tuple[int, str]]:
     return found
 
 
-PAGES = ["docs/python.md", "docs/sweeps.md", "python/README.md", "README.md"]
+PAGES = ["docs/python.md", "docs/sweeps.md", "docs/tutorial-python.md", "python/README.md", "README.md"]
 
 
 def test_no_page_with_python_is_forgotten() -> None:

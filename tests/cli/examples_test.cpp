@@ -218,6 +218,13 @@ std::vector<Block> blocks_of_page(const fs::path& page) {
   return blocks;
 }
 
+/// The name under which a page says to save a block of TOML; empty: it does not.
+std::string file_of(const Block& block) {
+  static const std::regex named("as `([^`]+)`");
+  std::smatch name;
+  return block.language == "toml" && std::regex_search(block.before, name, named) ? name.str(1) : "";
+}
+
 /// What becomes of `aspic verify` when an example is run.
 enum class Checks { listed, run };
 
@@ -273,6 +280,9 @@ class Reader {
       part += std::string("facet normal 0 0 0\nouter loop\n") + corners + "\nendloop\nendfacet\n";
     dir_.write("part.stl", part + "endsolid part\n");
     dir_.write("hands.toml", "[[inputs]]\nstep = 5\npinned = [0]\n");
+    for (const fs::path& page : documents())
+      for (const Block& block : blocks_of_page(page))
+        if (const std::string name = file_of(block); !name.empty()) dir_.write(name, block.text);
   }
 
   /// What `aspic scene check` says of a file that is here for the moment.
@@ -438,10 +448,8 @@ TEST(Examples, OfReadmeRunInOrderInAnEmptyFolder) {
                 next = i + 1 < examples.size() ? line_of(examples[i + 1].where) : line + 1000;
       const Block* output = nullptr;
       for (const Block& block : blocks) {
-        std::smatch name;
-        if (block.language == "toml" && line_of(block.where) < line &&
-            std::regex_search(block.before, name, std::regex("as `([^`]+)`")))
-          folder.write(name.str(1), block.text);
+        if (const std::string name = file_of(block); !name.empty() && line_of(block.where) < line)
+          folder.write(name, block.text);
         if (block.language == "text" && line_of(block.where) > line && line_of(block.where) < next)
           output = &block;
       }

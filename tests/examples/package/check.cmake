@@ -1,5 +1,5 @@
 # cmake -DASPIC_BUILD=… -DASPIC_SOURCE=… -DASPIC_PROGRAM=… -DASPIC_WANTED=… -DKINDS=static,shared -DCOMPILER=… -DNM=… -P check.cmake:
-# installs the library into a folder of its own and uses it from a project outside the tree, also as docs/library.md does.
+# installs the library into a folder of its own and uses it from a project outside the tree, also as docs/tutorial-cpp.md and docs/library.md do.
 include("${CMAKE_CURRENT_LIST_DIR}/page_programs.cmake")
 execute_process(COMMAND mktemp -d OUTPUT_VARIABLE place OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 
@@ -80,10 +80,12 @@ foreach(kind IN LISTS KINDS)
   # Once, with the kind that the page's reader gets.
   set(programs "")
   if(kind STREQUAL last_kind)
+    page_programs("${ASPIC_SOURCE}/docs/tutorial-cpp.md" "${place}/${kind}" tutorial)
     page_programs("${ASPIC_SOURCE}/docs/library.md" "${place}/${kind}" programs)
+    list(APPEND programs ${tutorial})
     list(LENGTH programs count)
-    if(count LESS 4)
-      complain("docs/library.md has ${count} programs.")
+    if(count LESS 6)
+      complain("docs/tutorial-cpp.md and docs/library.md have ${count} programs.")
     endif()
   endif()
   do(ignored "${CMAKE_COMMAND}" -G Ninja -S "${place}/${kind}" -B "${place}/${kind}/build" "-DCMAKE_PREFIX_PATH=${place}/prefix"
