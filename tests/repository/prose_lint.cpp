@@ -146,7 +146,7 @@ class Page {
  private:
   void command(int line, const std::string& text) {
     static const std::regex quoted(R"('[^']*'|"[^"]*"|\[[A-Z]+\])"), comment(R"((^|\s)#.*)"),
-        output(R"((--(video|frames|page|page-live|state|series|checkpoint|export|out|runs)|>)[ =](\S+))");
+        output(R"((--(video|frames|html|html-live|state|series|checkpoint|export|out|runs)|>)[ =](\S+))");
     const std::string bare = std::regex_replace(std::regex_replace(text, quoted, "'"), comment, "");
     if (bare.find_first_of("[]{}") != std::string::npos) add(line, "bracket", text);
     for (std::sregex_iterator at(bare.begin(), bare.end(), output), end; at != end; ++at) {
