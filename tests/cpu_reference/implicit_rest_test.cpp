@@ -1,5 +1,5 @@
 // Bodies come to rest under implicit Euler, with the ground in its equation, at 60 steps a second: cubes,
-// slopes, grooves and corners, sphere and bowl, pulls, pinned particles, bounces before. The explicit
+// slopes, grooves and corners, sphere and bowl, pinned particles. The explicit
 // methods' are in rest_test.cpp.
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "aspic/analysis.h"
-#include "aspic/inputs.h"
 #include "model/terrain.h"
 #include "support/epsilon.h"
 #include "support/model_building.h"
@@ -18,7 +17,6 @@ namespace aspic {
 namespace {
 
 using test::advanced;
-using test::apexes;
 using test::fastest;
 using test::layer;
 using test::solver_for;
@@ -109,71 +107,6 @@ TEST(ImplicitRest, ACubeOnASlopeItSticksTo) {
     EXPECT_LT(length(late.position[i] - early.position[i]), 1e-6);
 }
 
-TEST(ImplicitRest, ACubeSlidesWithCoulombsAcceleration) {
-  for (const double degrees : {15.0, 25.0}) {
-    const double angle = degrees * std::numbers::pi / 180.0, mu = 0.2;
-    const Vec3 along = {std::cos(angle), -std::sin(angle), 0.0};
-    const Model model = test::build(cube_on_slope(degrees, mu, 0.02));
-    const auto solver = solver_for(model);
-    const auto speed = [&](const State& state) {
-      return dot(measure(model, state).momentum, along) / static_cast<double>(model.particle_count());
-    };
-    const double early = speed(advanced(*solver, 180)), late = speed(advanced(*solver, 120));
-    EXPECT_NEAR((late - early) / 2.0, g * (std::sin(angle) - mu * std::cos(angle)), 1e-4);
-  }
-}
-
-// One particle: exact, on either side of the cone.
-TEST(ImplicitRest, AParticleOnASlopeKeepsToCoulombsCone) {
-  const double angle = 25.0 * std::numbers::pi / 180.0, tangent = std::tan(angle);
-  const Vec3 n = {std::sin(angle), std::cos(angle), 0.0};
-  const int steps = 100;
-  const double t = steps * h, rounding = steps * 16 * eps * 8.0;
-  for (const double share : {0.0, 0.5, 0.99, 1.01, 2.0}) {
-    ContactSettings contact;
-    contact.friction = share * tangent;
-    const Model model = loose({{0, 0, 0}}, {{}}, {plane({}, n)}, contact);
-    const State end = advanced(*solver_for(model), steps);
-    const double free = t * g * (std::sin(angle) - contact.friction * std::cos(angle));
-    EXPECT_NEAR(length(end.velocity[0]), share < 1.0 ? free : 0.0, rounding) << share;
-    EXPECT_NEAR(dot(end.velocity[0], n), 0.0, rounding);
-  }
-}
-
-// Sixteen phases of the step at which a particle meets the ground. Backward Euler itself is off by g·h/2 in
-// the speed it gives at a height, of 4.4 m/s here, and the apex between two steps by up to g·h²/8.
-TEST(ImplicitRest, ABounceKeepsRestitutionSquared) {
-  for (const double e : {0.2, 0.5, 0.8, 1.0}) {
-    std::vector<Vec3> positions, velocities(16);
-    for (int i = 0; i < 16; ++i) positions.push_back({1.0 * i, 1.0 + 0.03 * i / 16.0, 0.0});
-    ContactSettings contact;
-    contact.restitution = e;
-    const Model model = loose(positions, velocities, {plane({}, {0, 1, 0})}, contact);
-    const auto [bounces, apex] = apexes(model, e < 1.0 ? 60 : 540, e == 1.0);
-    for (std::size_t i = 0; i < 16; ++i) {
-      ASSERT_GE(bounces[i], e < 1.0 ? 1 : 9);
-      EXPECT_NEAR(apex[i] / (e * e * positions[i].y), 1.0, g * h * h / 8 / (e * e))
-          << "e = " << e << ", " << i;
-      EXPECT_LE(apex[i], positions[i].y) << "phase " << i;
-    }
-  }
-}
-
-TEST(ImplicitRest, ABounceKnowsTheTerrainsMass) {
-  ContactSettings contact;
-  contact.restitution = 1.0;
-  TerrainSettings movable = plane({}, {0, 1, 0});
-  movable.mass = 10.0;
-  const Model model = loose({{0, 1, 0}}, {{}}, {movable}, contact);
-  const auto solver = solver_for(model);
-  double apex = 0.0;
-  for (int n = 0; n < 60; ++n) {
-    const double y = advanced(*solver, 1).position[0].y;
-    if (n > 28) apex = std::max(apex, y);  // the fall takes 27 steps
-  }
-  EXPECT_NEAR(apex, 81.0 / 121.0, g * h * h / 8);
-}
-
 // Cubes in grooves of several angles and in a corner of three planes: all come to rest, none below a surface.
 TEST(ImplicitRest, CubesInGroovesAndInACorner) {
   for (const double slope : {0.4, 1.0, 2.5}) {
@@ -233,27 +166,6 @@ TEST(ImplicitRest, SphereAndBowl) {
   settings.terrain = {bowl};
   const Model rocking = test::build(settings);
   EXPECT_LT(fastest(advanced(*solver_for(rocking), 900)), 1e-3);
-}
-
-// A hand above pulls with hardly more, or hardly less, than the weight: nothing keeps the particle down.
-TEST(ImplicitRest, APulledParticleLeavesWithoutAdhesion) {
-  const double stiffness = 0.001;
-  for (const double share : {0.999, 1.001}) {
-    const Model model = loose({{0, 0, 0}}, {{}}, {plane({}, {0, 1, 0})});
-    const auto solver = solver_for(model);
-    ASSERT_TRUE(solver->set_inputs({{Pull{0, {0, share * g / stiffness, 0}, stiffness, 0.0}}}).ok());
-    const State end = advanced(*solver, 60);
-    if (share < 1.0) {
-      EXPECT_EQ(end.position[0].y, 0.0);
-      EXPECT_EQ(end.velocity[0], Vec3{});
-    } else {
-      const double t = 60 * h, a = (share - 1.0) * g;
-      // The pull weakens by stiffness·y, y = a·h²·n(n + 1)/2 after n steps; each step's solve may be off by
-      // its tolerance.
-      EXPECT_NEAR(end.velocity[0].y, a * t, stiffness * a * t * (t + h) * (t + 2 * h) / 6 + 60 * tolerance);
-      EXPECT_NEAR(end.position[0].y, a * t * t / 2, a * h * t + 60 * t * tolerance);
-    }
-  }
 }
 
 TEST(ImplicitRest, PinnedParticlesTakeNoPart) {

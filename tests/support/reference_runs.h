@@ -49,29 +49,6 @@ inline double layer(const Terrain& terrain, const State& state, std::size_t coun
   return std::max(-gaps.front(), gaps[count - 1]);
 }
 
-/// Bounces of every particle, and how high it comes: its first apex, or its highest with `all`.
-struct Apexes {
-  std::vector<int> bounces;
-  std::vector<double> height;  ///< [m]
-};
-inline Apexes apexes(const Model& model, int steps, bool all) {
-  const auto solver = solver_for(model);
-  const std::size_t count = model.particle_count();
-  Apexes result = {std::vector<int>(count, 0), std::vector<double>(count, 0.0)};
-  State before = *solver->state();
-  for (int n = 0; n < steps; ++n) {
-    const State now = advanced(*solver, 1);
-    for (std::size_t i = 0; i < count; ++i) {
-      int& bounces = result.bounces[i];
-      bounces += before.velocity[i].y < 0.0 && now.velocity[i].y > 0.0;
-      if (bounces == 1 || (bounces > 1 && all))
-        result.height[i] = std::max(result.height[i], now.position[i].y);
-    }
-    before = now;
-  }
-  return result;
-}
-
 /// Balls alone in space without gravity or spin, every contact fully elastic.
 inline ModelSettings weightless() {
   ModelSettings settings;

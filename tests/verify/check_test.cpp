@@ -40,6 +40,27 @@ TEST(Battery, CoversEveryIntegrator) {
   }
 }
 
+// Rows that are core tests as well: contact of a particle and a cube with terrain, under every method.
+TEST(Battery, ContactWithTerrainHoldsOnTheReference) {
+  const std::vector<std::string> names = {"contact/bounce",
+                                          "contact/resist",
+                                          "contact/order",
+                                          "contact/projection",
+                                          "contact/stick",
+                                          "contact/slide",
+                                          "contact/pull",
+                                          "contact/restitution",
+                                          "rest/bottom",
+                                          "contact/cone/midpoint",
+                                          "contact/cone/implicit-euler"};
+  const auto checks = select(battery(), names, false);
+  ASSERT_TRUE(checks.ok());
+  for (const Check& check : *checks) {
+    const Row row = evaluate(check, product(nullptr, ""));
+    EXPECT_EQ(row.verdict, Verdict::passed) << row.name << ": " << row.measured << ", bound " << row.bound;
+  }
+}
+
 TEST(Select, TakesNamesAndGroupsButNoHalfWords) {
   const std::vector<Check> checks = {check_that("rest/a", true), check_that("rest/b", true),
                                      check_that("restless", true)};
