@@ -106,10 +106,8 @@ TEST(Npy, SurvivesAnyChangeOfItsBytes) {
     if (trial % 3 == 0) content.resize(random() % content.size());
     const auto array = NpyArray::read(content);
     if (!array) continue;
-    for (std::size_t i = 0; i < array->size(); ++i) {
-      array->number(i);
-      if (array->whole_numbers()) array->whole(i);
-    }
+    for (std::size_t i = 0; i < array->size() && array->whole_numbers(); ++i)
+      EXPECT_EQ(static_cast<double>(array->whole(i)), array->number(i));
   }
 }
 

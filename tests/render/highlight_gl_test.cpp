@@ -179,10 +179,18 @@ TEST_F(Highlight, DegeneratePullsAreDrawn) {
   const Model model = lonely_cube();
   const State state = initial_state(model, Precision::single);
   PictureOptions options = plain();
-  // To itself, to the eye, and to behind it.
-  for (const Vec3& anchor : {state.position[26], options.view.camera.position, Vec3{8.0, 6.0, 26.0}}) {
+  const test::Image bare = draw(model, state, options, width, height);
+  // To itself, to the eye, which shows nothing, and to behind it.
+  const std::pair<Vec3, int> cases[] = {
+      {state.position[26], 100}, {options.view.camera.position, 0}, {{8.0, 6.0, 26.0}, 100}};
+  for (const auto& [anchor, least] : cases) {
     options.highlight = HighlightOptions{.pull = HighlightOptions::Pull{26, anchor}};
-    (void)draw(model, state, options, width, height);
+    const test::Image image = draw(model, state, options, width, height);
+    int changed = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) changed += image.channel(x, y, 1) != bare.channel(x, y, 1);
+    EXPECT_GE(changed, least);
+    EXPECT_LT(changed, width * height / 50);
   }
 }
 

@@ -240,14 +240,27 @@ TEST_F(Picture, EmptySkyAndDegenerateStatesAreDrawn) {
   State state = initial_state(model, Precision::single);
   for (Vec3& x : state.position) x = {0.0, 1.0, 0.0};  // all particles in one point
   PictureOptions options;
+  options.legend = options.shadows = false;
+  options.view.draw = {.solid = false};
+  const test::Image bare = draw(model, state, options, 64, 48);
+  const auto place = test::project(Camera(options.view.camera, 64, 48), state.position[0]);
+  ASSERT_TRUE(place.has_value());
   options.view.draw = {true, true, true, true, true};
   for (const ViewColour colour :
        {ViewColour::material, ViewColour::type, ViewColour::strain, ViewColour::force, ViewColour::speed}) {
     options.view.colour = colour;
-    (void)draw(model, state, options, 64, 48);
+    const test::Image image = draw(model, state, options, 64, 48);
+    int there = 0, elsewhere = 0;
+    for (int y = 0; y < 48; ++y)
+      for (int x = 0; x < 64; ++x)
+        if (image.channel(x, y, 0) != bare.channel(x, y, 0))
+          ++(std::hypot(x + 0.5 - place->x, y + 0.5 - place->y) < 6.0 ? there : elsewhere);
+    EXPECT_GT(there, 0) << static_cast<int>(colour);
+    EXPECT_EQ(elsewhere, 0) << static_cast<int>(colour);
   }
   Model nothing;
-  (void)draw(nothing, State{}, options, 16, 16);
+  const test::Image sky = draw(nothing, State{}, options, 16, 16);
+  EXPECT_GT(sky.channel(8, 0, 2), 100) << "the sky is blue";
 }
 
 TEST_F(Picture, PresentsEncodedValues) {
