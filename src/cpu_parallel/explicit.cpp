@@ -92,7 +92,7 @@ void ExplicitSteps::constants_changed() {
 
 std::uint64_t ExplicitSteps::bytes() const {
   std::uint64_t sum = sizeof(*this) + bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) +
-                      bytes_of(sweeps_) + bytes_of(band_sweeps_) + bytes_of(touched_) +
+                      bytes_of(sweeps_) + bytes_of(band_sweeps_) + bytes_of(force_with_contact_) +
                       bytes_of(kept_force_) + bytes_of(kept_sums_);
   for (const Task& task : tasks_) sum += bytes_of(task.near) + bytes_of(task.resting);
   for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
@@ -151,9 +151,9 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
   const bool may_contact =
       bodies_ && !all_apart() && bodies_->begin_step(dynamics_.step(), view(start), on_workers());
   if (may_contact) {
-    touched_.resize(bodies_->particles().size());
-    kept_force_.resize(touched_.size());
-    if (method_.stages.size() > 1) kept_sums_.resize(touched_.size());
+    force_with_contact_.resize(bodies_->particles().size());
+    kept_force_.resize(force_with_contact_.size());
+    if (method_.stages.size() > 1) kept_sums_.resize(force_with_contact_.size());
   }
   const double h = model_->simulation.timestep;
   const std::size_t stages = method_.stages.size();
@@ -193,7 +193,7 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   const ForceInput input = {stage.at, mass_.data(), &dynamics_.body_force(), arithmetic_};
   const bool near = near_terrain(*model_, task.box);
   if (stage.at == stage.start) find_resting(task, stage);
-  if (in_contact_) task.kept = first_touched(task);
+  if (in_contact_) task.kept = first_contact_particle(task);
   Moved moved(speed_limit);
   if (const auto* const lattice = std::get_if<LatticeStencil>(&springs_[task.body])) {
     const std::size_t size = lattice->plane_size();
@@ -266,41 +266,43 @@ void put_force(const Forces& forces, std::size_t n, const Vector& f) {
 void ExplicitSteps::finish(Task& task, const StageMove& stage, bool near, Range range, const Forces& forces,
                            Moved& moved) {
   pull(stage, range, forces);
-  if (in_contact_) keep_touched(task, stage, range, forces);
+  if (in_contact_) keep_contact_particles(task, stage, range, forces);
   if (near || !task.resting.empty()) add_contact(task, stage, range, forces);
   move(stage, range, forces, moved);
 }
 
-/// What it takes to move those particles of a range again that bodies may touch.
-void ExplicitSteps::keep_touched(Task& task, const StageMove& stage, Range range, const Forces& forces) {
+/// Stores what is needed to move the particles of a range again that may be in contact with bodies.
+void ExplicitSteps::keep_contact_particles(Task& task, const StageMove& stage, Range range,
+                                           const Forces& forces) {
   const auto all = bodies_->particles();
   for (; task.kept < all.size() && all[task.kept] < range.first + range.count; ++task.kept) {
     const std::size_t i = all[task.kept];
-    touched_[task.kept] = kept_force_[task.kept] = force_at(forces, i - range.first);
+    force_with_contact_[task.kept] = kept_force_[task.kept] = force_at(forces, i - range.first);
     if (stage.accumulate) kept_sums_[task.kept] = {vector_of(stage.sums->x, i), vector_of(stage.sums->v, i)};
   }
 }
 
-/// Pushes and friction of bodies, then what comes after them for the particles they touch.
+/// Adds normal forces and friction of bodies, then completes the stage of the particles in contact.
 void ExplicitSteps::contact(const StageMove& stage) {
   bodies_->add_forces(
-      view(*stage.start), [&](std::uint32_t p) { return inverse_mass_[p]; }, touched_, on_workers());
+      view(*stage.start), [&](std::uint32_t p) { return inverse_mass_[p]; }, force_with_contact_,
+      on_workers());
   workers_.run(tasks_.size(), [&](std::size_t n) {
-    move_touched(tasks_[n], stage);
+    move_contact_particles(tasks_[n], stage);
     end(tasks_[n], stage);
   });
 }
 
-/// Moves the particles of a task on which bodies act, as if they had not moved.
-void ExplicitSteps::move_touched(Task& task, const StageMove& stage) {
+/// Moves the particles of a task on which contact forces act, from where the stage began.
+void ExplicitSteps::move_contact_particles(Task& task, const StageMove& stage) {
   const auto all = bodies_->particles();
   alignas(64) float f[3][slice] = {};
   const Forces forces = {{f[0], f[1], f[2]}};
   Moved moved(speed_limit);
   const auto same = [&](std::size_t n) {
-    return std::memcmp(touched_[n].data(), kept_force_[n].data(), sizeof(Vector)) == 0;
+    return std::memcmp(force_with_contact_[n].data(), kept_force_[n].data(), sizeof(Vector)) == 0;
   };
-  for (std::size_t n = first_touched(task); n < task.kept;) {
+  for (std::size_t n = first_contact_particle(task); n < task.kept;) {
     if (same(n)) {
       ++n;
       continue;
@@ -308,7 +310,7 @@ void ExplicitSteps::move_touched(Task& task, const StageMove& stage) {
     // One after the other, they move together.
     Range part = {all[n], 0};
     for (; n < task.kept && part.count < slice && all[n] == part.first + part.count; ++n, ++part.count) {
-      put_force(forces, part.count, touched_[n]);
+      put_force(forces, part.count, force_with_contact_[n]);
       if (!stage.accumulate) continue;
       set(stage.sums->x, all[n], kept_sums_[n][0]);
       set(stage.sums->v, all[n], kept_sums_[n][1]);
@@ -320,8 +322,8 @@ void ExplicitSteps::move_touched(Task& task, const StageMove& stage) {
   task.sound = task.sound && moved.sound;
 }
 
-/// Of the particles that bodies may touch, the first from a task's first on.
-std::size_t ExplicitSteps::first_touched(const Task& task) const {
+/// Index of the first particle of a task among those that may be in contact with bodies.
+std::size_t ExplicitSteps::first_contact_particle(const Task& task) const {
   const auto all = bodies_->particles();
   return static_cast<std::size_t>(std::ranges::lower_bound(all, task.range.first) - all.begin());
 }

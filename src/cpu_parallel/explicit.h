@@ -38,7 +38,7 @@ class ExplicitSteps final : public Steps {
     /// Those that may be near terrain at the step's start: at its end terrain moves none but them.
     std::vector<Range> near;
     std::vector<physics::RestingContact<float>> resting;  ///< of this step, in ascending particle index
-    std::size_t kept;  ///< those before, in touched_, are of this task or of one before
+    std::size_t kept;  ///< those before, in force_with_contact_, are of this or an earlier task
   };
 
   void cut(std::size_t body);
@@ -56,9 +56,9 @@ class ExplicitSteps final : public Steps {
     return [this](std::size_t count, const auto& task) { workers_.run(count, task); };
   }
   void contact(const StageMove& stage);
-  void move_touched(Task& task, const StageMove& stage);
-  void keep_touched(Task& task, const StageMove& stage, Range range, const Forces& forces);
-  std::size_t first_touched(const Task& task) const;
+  void move_contact_particles(Task& task, const StageMove& stage);
+  void keep_contact_particles(Task& task, const StageMove& stage, Range range, const Forces& forces);
+  std::size_t first_contact_particle(const Task& task) const;
   void find_resting(Task& task, const StageMove& stage) const;
   template <class F>
   void for_near(const VectorArray& x, Range range, const F& f) const;
@@ -76,11 +76,11 @@ class ExplicitSteps final : public Steps {
   std::vector<BandSweep> band_sweeps_;  // by thread
   Particles between_, sums_;
   bool known_ = false;                                       ///< the boxes, and what is near
-  std::unique_ptr<collision::ContactSearch<float>> bodies_;  ///< none where none can touch
+  std::unique_ptr<collision::ContactSearch<float>> bodies_;  ///< null: no bodies can be in contact
   bool in_contact_ = false;                                  ///< in the stage at hand
   std::vector<Box> body_boxes_;                              ///< around all tasks of each body
   /// Of bodies_->particles(): forces with and without those of bodies [N], and their sums before the stage.
-  std::vector<physics::Vector<float>> touched_, kept_force_;
+  std::vector<physics::Vector<float>> force_with_contact_, kept_force_;
   std::vector<std::array<physics::Vector<float>, 2>> kept_sums_;
 };
 
