@@ -15,10 +15,10 @@
 #include "model/integrator.h"
 #include "render/colour_map.h"
 #include "run/backends.h"
-#include "run/comparison.h"
 #include "scene/parameters.h"
 #include "scene/short_keys.h"
 #include "scene/write.h"
+#include "variants/variant.h"
 
 namespace aspic::app {
 namespace {

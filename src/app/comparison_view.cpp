@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "model/integrator.h"
-#include "run/comparison.h"
 #include "scene/short_keys.h"
+#include "variants/comparison.h"
 
 namespace aspic::app {
 namespace {

@@ -7,16 +7,16 @@
 #include <filesystem>
 
 #include "render/quantity.h"
-#include "run/comparison.h"
+#include "render/tiles.h"
 #include "run/run_files.h"
 
 namespace aspic::app {
 namespace {
 
 std::string result_text(Recording& film) {
-  const FilmOptions& options = film.options();
+  const VideoOptions& options = film.options();
   if (const Status result = film.result(); !result) return worded(result.error(), FrontEnd::window);
-  return fmt::format("{} holds {} pictures, {:.2f} s at {:g} per second.", options.path, film.pictures(),
+  return fmt::format("{} holds {} pictures, {:.2f} s at {:g} per second.", options.path, film.frames(),
                      film.seconds(), options.fps);
 }
 
@@ -37,7 +37,7 @@ void Film::start() {
     return format.even_sides ? count & ~1 : count;
   };
   named_ = settings.path;
-  FilmOptions options;
+  VideoOptions options;
   options.fps = settings.fps;
   options.path = settings.path.empty() ? free_name(editor_.source(), film_ending(format))
                                        : film_path(settings.path, format);

@@ -15,7 +15,7 @@
 #include "io/film_format.h"
 #include "playback/film_pace.h"
 #include "playback/playback_session.h"
-#include "run/comparison.h"
+#include "render/tiles.h"
 #include "run/recording.h"
 
 namespace aspic::app {
@@ -83,7 +83,7 @@ class Film {
   std::uint64_t wanted_copies();
   FilmLook look_of(std::size_t run) const;
   Status draw();
-  const gl::Framebuffer& drawn() const { return canvas_ ? canvas_->picture() : picture_.pixels(); }
+  const gl::Framebuffer& drawn() const { return canvas_ ? canvas_->frame() : picture_.pixels(); }
 
   PlaybackSession& simulation_;
   const SceneEditor& editor_;

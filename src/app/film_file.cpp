@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "model/inputs.h"
 #include "page/live_facts.h"
-#include "run/comparison.h"
+#include "variants/comparison.h"
 
 namespace aspic::app {
 namespace {

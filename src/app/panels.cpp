@@ -13,7 +13,7 @@
 #include "app/panel.h"
 #include "app/parameter_widget.h"
 #include "base/printable.h"
-#include "run/comparison.h"
+#include "render/tiles.h"
 
 namespace aspic::app {
 namespace {

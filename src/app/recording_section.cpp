@@ -14,8 +14,8 @@
 #include "io/series_csv.h"
 #include "io/state_sink.h"
 #include "playback/recorded_inputs.h"
-#include "run/comparison.h"
 #include "run/run_files.h"
+#include "variants/comparison.h"
 
 namespace aspic::app {
 namespace {
@@ -176,12 +176,12 @@ void save_inputs(const std::string& path, Overwrite overwrite, PlaybackSession& 
 
 void recording_section(Gui& gui, const std::string& source, Film& film) {
   if (const Recording* const recording = film.recording()) {
-    const FilmOptions& o = recording->options();
+    const VideoOptions& o = recording->options();
     const std::string label = fmt::format("End the film ({:.2f} s)", recording->seconds());
     if (command_button(gui, "record/stop", label.c_str(), "Completes " + o.path + ".", start_or_end, true,
                        -1.0f))
       return;
-    ImGui::TextDisabled("%llu pictures of %d × %d", static_cast<unsigned long long>(recording->pictures()),
+    ImGui::TextDisabled("%llu pictures of %d × %d", static_cast<unsigned long long>(recording->frames()),
                         o.size.width, o.size.height);
     tooltip("Pictures so far, and their size in pixels.");
     if (!recording->ready()) ImGui::TextDisabled("The motion waits for the encoder.");

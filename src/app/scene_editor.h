@@ -13,8 +13,8 @@
 #include "base/result.h"
 #include "io/atomic_file.h"
 #include "playback/effect.h"
-#include "run/variant.h"
 #include "scene/parameters.h"
+#include "variants/variant.h"
 
 namespace aspic::app {
 

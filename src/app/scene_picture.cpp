@@ -12,8 +12,7 @@
 #include "io/film_format.h"
 #include "render/colour_map.h"
 #include "render/overlay_text.h"
-#include "run/arrows.h"
-#include "run/backends.h"
+#include "render/state_arrows.h"
 
 namespace aspic::app {
 namespace {
@@ -33,7 +32,7 @@ int rounded(double length) {
 }  // namespace
 
 Status ScenePicture::attach(gl::Context& context) {
-  ASPIC_TRY(const auto directory, shader_directory());
+  ASPIC_TRY(const auto directory, gl::shader_directory());
   context_ = &context;
   RendererOptions look;
   look.shaders = gl::ShaderLibrary(directory);

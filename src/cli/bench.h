@@ -144,7 +144,7 @@ Json origin_json();
 /// A value below which a share q of the samples lies, 0 (least) … 1, linear between two; not empty.
 double quantile_of(std::vector<double> samples, double q);
 
-/// `aspic bench --pictures`. Errors: as measure_pictures.
+/// `aspic bench --pictures`. Errors: as measure_frames.
 Status execute_pictures(const BenchOptions& options, const Scene& scene, const InterruptGuard& interrupt);
 
 }  // namespace aspic::cli

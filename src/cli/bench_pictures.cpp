@@ -1,14 +1,14 @@
-// What pictures cost: `aspic bench --pictures`.
+// The cost of frames: `aspic bench --pictures`.
 #include <fmt/format.h>
 
 #include "cli/bench.h"
+#include "cli/frame_cost.h"
 #include "io/console.h"
-#include "run/picture_cost.h"
 
 namespace aspic::cli {
 namespace {
 
-Json json_of_cost(const BenchOptions& options, const Scene& scene, const PictureCost& cost) {
+Json json_of_cost(const BenchOptions& options, const Scene& scene, const FrameCost& cost) {
   Json passes = Json::array();
   for (const gl::PassTime& pass : cost.passes)
     passes.push_back({{"name", pass.name},
@@ -21,24 +21,24 @@ Json json_of_cost(const BenchOptions& options, const Scene& scene, const Picture
                {"height", options.pictures->height},
                {"pictures", cost.seconds.size()},
                {"median_seconds", quantile_of(cost.seconds, 0.5)},
-               {"median_processor_seconds", quantile_of(cost.processor_seconds, 0.5)},
+               {"median_processor_seconds", quantile_of(cost.cpu_seconds, 0.5)},
                {"fastest_seconds", quantile_of(cost.seconds, 0.0)},
                {"slowest_seconds", quantile_of(cost.seconds, 1.0)},
                {"seconds", cost.seconds},
-               {"processor_seconds", cost.processor_seconds},
+               {"processor_seconds", cost.cpu_seconds},
                {"passes", passes}});
   return json;
 }
 
-std::string table_of_cost(const BenchOptions& options, const Scene& scene, const PictureCost& cost) {
+std::string table_of_cost(const BenchOptions& options, const Scene& scene, const FrameCost& cost) {
   std::string text = fmt::format(
       "{}, pictures of {} x {} on {}\n"
       "{:.2f} ms a picture, {:.2f} ms of processor time; medians of {}, {:.2f} to {:.2f} ms\n\n"
       "{:<24} {:>10} {:>14}\n",
       scene.name, options.pictures->width, options.pictures->height, cost.device,
-      1e3 * quantile_of(cost.seconds, 0.5), 1e3 * quantile_of(cost.processor_seconds, 0.5),
-      cost.seconds.size(), 1e3 * quantile_of(cost.seconds, 0.0), 1e3 * quantile_of(cost.seconds, 1.0),
-      "pass by pass", "ms", "processor ms");
+      1e3 * quantile_of(cost.seconds, 0.5), 1e3 * quantile_of(cost.cpu_seconds, 0.5), cost.seconds.size(),
+      1e3 * quantile_of(cost.seconds, 0.0), 1e3 * quantile_of(cost.seconds, 1.0), "pass by pass", "ms",
+      "processor ms");
   double sum = 0.0, processor_sum = 0.0;
   for (const gl::PassTime& pass : cost.passes) {
     text += fmt::format("{:<24} {:>10.3f} {:>14.3f}\n", pass.name, pass.milliseconds,
@@ -53,13 +53,13 @@ std::string table_of_cost(const BenchOptions& options, const Scene& scene, const
 }  // namespace
 
 Status execute_pictures(const BenchOptions& options, const Scene& scene, const InterruptGuard& interrupt) {
-  PictureCostOptions measured;
+  FrameCostOptions measured;
   measured.size = *options.pictures;
   measured.duration = options.duration.value_or(measured.duration);
   measured.repeats = options.repeats;
   measured.warm_up = options.warm_up;
-  ASPIC_TRY(const auto cost, measure_pictures(scene, options.backends.front(), measured,
-                                              [&] { return interrupt.interrupted(); }));
+  ASPIC_TRY(const auto cost, measure_frames(scene, options.backends.front(), measured,
+                                            [&] { return interrupt.interrupted(); }));
   return options.json ? print_data(to_text(json_of_cost(options, scene, cost)))
                       : print_text(table_of_cost(options, scene, cost));
 }

@@ -14,12 +14,12 @@
 #include "model/inputs.h"
 #include "model/reading.h"
 #include "page/page_writer.h"
-#include "run/common_clock.h"
-#include "run/comparison.h"
-#include "run/comparison_recorder.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
 #include "run/window_host.h"
+#include "variants/common_clock.h"
+#include "variants/comparison.h"
+#include "variants/comparison_recorder.h"
 
 namespace aspic::cli {
 namespace {
@@ -151,7 +151,7 @@ class ComparisonPage {
   }
   /// Errors: usage, more pictures of all runs than a page holds; io.
   Status begin(const RunOptions& options, const HeadlessVariants& variants,
-               const std::vector<PicturedRun>& runs, std::uint64_t pictures) {
+               const std::vector<RecordedRun>& runs, std::uint64_t pictures) {
     const double fps = frames_per_second(options.pictures);
     std::vector<page::PageRun> paged;
     std::uint64_t positions = 0;
@@ -286,15 +286,15 @@ Status execute_comparison(const RunOptions& options) {
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
   std::shared_ptr<gl::Context> context;  // outlives the recorder
   ASPIC_TRY(auto variants, make_variants(options, differences, overwrite));
-  ASPIC_CHECK(check_pictures(options.pictures, variants.front()->model->simulation.timestep, 0,
-                             variants.front()->last_step));
+  ASPIC_CHECK(check_frame_count(options.pictures, variants.front()->model->simulation.timestep, 0,
+                                variants.front()->last_step));
   ASPIC_TRY(auto film, RunFiles::open({}, options.pictures, {}, overwrite));
   ASPIC_TRY(auto page, ComparisonPage::open(options, overwrite));
   ASPIC_TRY(context, shared_context(options, variants));
   ASPIC_CHECK(prepare(variants, differences, context.get(), interrupt));
 
   std::vector<Span> spans;
-  std::vector<PicturedRun> pictured;
+  std::vector<RecordedRun> pictured;
   for (const auto& m : variants) {
     spans.push_back({m->model->simulation.timestep, m->last_step});
     pictured.push_back({&m->run.scene, &m->backend,

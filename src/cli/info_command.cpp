@@ -39,7 +39,7 @@ Json json_of(const gl::DeviceInfo& info) {
 
 /// What the canary kernel finds out about the device's arithmetic, and what is done about it.
 std::vector<std::string> arithmetic_sentences(gl::Context& context) {
-  const auto directory = shader_directory();
+  const auto directory = gl::shader_directory();
   if (!directory) return {worded(directory.error(), FrontEnd::command_line)};
   const auto arithmetic = gl::choose_arithmetic(context, gl::ShaderLibrary(*directory));
   if (!arithmetic)

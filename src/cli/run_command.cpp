@@ -178,7 +178,7 @@ Status execute(const RunOptions& options) {
                 options.resume_file, start.state->step, steps);
   }
   const std::uint64_t first_step = start.state ? start.state->step : 0;
-  ASPIC_CHECK(check_pictures(options.pictures, start.scene.model.simulation.timestep, first_step, steps));
+  ASPIC_CHECK(check_frame_count(options.pictures, start.scene.model.simulation.timestep, first_step, steps));
   ASPIC_TRY(auto built, build_model(start.scene.model));
   const SharedModel held_model = shared(std::move(built));
   const Model& model = *held_model;

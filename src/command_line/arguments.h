@@ -12,7 +12,7 @@
 #include "base/result.h"
 #include "run/backends.h"
 #include "run/run_files.h"
-#include "run/run_length.h"
+#include "variants/run_length.h"
 
 namespace aspic {
 

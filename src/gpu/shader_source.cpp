@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <optional>
 
 #include "base/files.h"
@@ -199,6 +200,19 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
   }
   work.open.pop_back();
   return {};
+}
+
+Result<std::filesystem::path> shader_directory() {
+  const char* value = std::getenv("ASPIC_SHADER_DIR");
+  if (!value || !*value) return std::filesystem::path();
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(value, ignored)) {
+    return fail(ErrorCode::io,
+                "ASPIC_SHADER_DIR is {}, which is not a directory: use one laid out like shaders/ in the "
+                "sources, or unset it.",
+                printable_line(value));
+  }
+  return std::filesystem::path(value);
 }
 
 }  // namespace aspic::gl

@@ -79,4 +79,8 @@ class ShaderLibrary {
   std::filesystem::path directory_;
 };
 
+/// The directory in the environment variable ASPIC_SHADER_DIR, whose shaders go before the embedded ones;
+/// empty if it is not set. Error (io): it names no directory.
+Result<std::filesystem::path> shader_directory();
+
 }  // namespace aspic::gl

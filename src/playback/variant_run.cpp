@@ -7,7 +7,7 @@
 
 #include "model/steps.h"
 #include "playback/effect.h"
-#include "run/common_clock.h"
+#include "variants/common_clock.h"
 
 namespace aspic {
 Result<std::unique_ptr<VariantRun>> VariantRun::create(gl::Context& context, const Scene& scene,

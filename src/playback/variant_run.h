@@ -9,7 +9,7 @@
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "playback/playback_session.h"
-#include "run/variant.h"
+#include "variants/variant.h"
 
 namespace aspic {
 

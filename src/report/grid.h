@@ -8,7 +8,7 @@
 #include "aspic/scene.h"
 #include "aspic/sweep.h"
 #include "run/backends.h"
-#include "run/run_length.h"
+#include "variants/run_length.h"
 
 namespace aspic::report {
 

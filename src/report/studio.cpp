@@ -4,7 +4,7 @@
 
 #include "gpu/current.h"
 #include "gpu/pixel_ring.h"
-#include "run/backends.h"
+#include "gpu/shader_source.h"
 
 namespace aspic::report {
 
@@ -12,7 +12,7 @@ Result<std::unique_ptr<Studio>> Studio::open() {
   std::unique_ptr<Studio> studio(new Studio());
   ASPIC_TRY(studio->context_, gl::Context::create_headless());
   RendererOptions options;
-  ASPIC_TRY(const auto directory, shader_directory());
+  ASPIC_TRY(const auto directory, gl::shader_directory());
   options.shaders = gl::ShaderLibrary(directory);
   ASPIC_TRY(studio->renderer_, Renderer::create(*studio->context_, options));
   return studio;

@@ -24,8 +24,8 @@
 #include "io/console.h"
 #include "report/csv.h"
 #include "report/sweep_rows.h"
-#include "run/run_folder.h"
 #include "run/window_host.h"
+#include "variants/run_folder.h"
 
 namespace aspic::report {
 namespace {

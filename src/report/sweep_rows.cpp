@@ -14,8 +14,8 @@
 #include "base/files.h"
 #include "base/printable.h"
 #include "report/csv.h"
-#include "run/run_folder.h"
-#include "run/sweep_figures.h"
+#include "variants/run_folder.h"
+#include "variants/sweep_figures.h"
 
 namespace aspic::report {
 namespace {

@@ -12,8 +12,8 @@
 #include "aspic/scene.h"
 #include "aspic/sweep.h"
 #include "run/backends.h"
-#include "run/run_length.h"
-#include "run/sweep_figures.h"
+#include "variants/run_length.h"
+#include "variants/sweep_figures.h"
 
 namespace aspic::report {
 

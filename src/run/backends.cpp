@@ -26,7 +26,7 @@ Result<Backend> make_gpu(SharedModel model, const BackendChoice& choice, const S
     ASPIC_TRY(own, gl::Context::create_headless());
     context = own.get();
   }
-  ASPIC_TRY(auto directory, shader_directory());
+  ASPIC_TRY(auto directory, gl::shader_directory());
   GpuOptions options;
   options.force_path = choice.force_path;
   options.shader_directory = std::move(directory);
@@ -247,19 +247,6 @@ gl::Context* context_of(const Backend& backend) {
 
 std::string Backend::variant() const {
   return variant_of(row->name, force_path, solver->precision(), arithmetic);
-}
-
-Result<std::filesystem::path> shader_directory() {
-  const char* value = std::getenv("ASPIC_SHADER_DIR");
-  if (!value || !*value) return std::filesystem::path();
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(value, ignored)) {
-    return fail(ErrorCode::io,
-                "ASPIC_SHADER_DIR is {}, which is not a directory: use one laid out like shaders/ in the "
-                "sources, or unset it.",
-                printable_line(value));
-  }
-  return std::filesystem::path(value);
 }
 
 AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window) {

@@ -1,6 +1,5 @@
 #pragma once
 // The table of backends: everything that any program asks of one is in its row.
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -74,10 +73,6 @@ std::string words_of(const BackendChoice& choice);
 /// Finds choices that no machine could satisfy, before any work: a precision, a force path, an arithmetic or
 /// a number of threads that the backend does not have (usage); what is not built yet (scene_rejected).
 Status check_choice(const BackendChoice& choice);
-
-/// The directory in the environment variable ASPIC_SHADER_DIR, whose shaders go before the embedded ones;
-/// empty if it is not set. Error (io): it names no directory.
-Result<std::filesystem::path> shader_directory();
 
 /// With a model of its own: a copy, or what is moved here.
 inline Result<Backend> make_backend(const BackendChoice& choice, Model model) {

@@ -7,40 +7,40 @@
 #include "base/result.h"
 #include "io/frame_schedule.h"
 #include "model/reading.h"
-#include "run/film_painter.h"
+#include "render/run_view.h"
 #include "run/run_files.h"
-#include "run/shown_run.h"
+#include "run/video_painter.h"
 #include "run/window_host.h"
 
 namespace aspic {
 namespace {
 
-/// Half a year at 60 pictures a second: more cannot have been meant.
-constexpr std::uint64_t most_pictures = 1000000000;
+/// Half a year at 60 frames a second: more cannot have been meant.
+constexpr std::uint64_t most_frames = 1000000000;
 
 }  // namespace
 
-Result<PictureContext> picture_context(const Backend& backend) {
-  if (gl::Context* const there = context_of(backend)) return PictureContext{there, nullptr};
+Result<FrameContext> frame_context(const Backend& backend) {
+  if (gl::Context* const there = context_of(backend)) return FrameContext{there, nullptr};
   auto context = gl::Context::create_headless();
   if (!context)
-    return fail(context.error(), "pictures need an OpenGL device; a software one is enough. {}",
+    return fail(context.error(), "images and videos need an OpenGL device; a software one is enough. {}",
                 context.error().what);
   gl::Context* const own = context->get();
-  return PictureContext{own, std::move(*context)};
+  return FrameContext{own, std::move(*context)};
 }
 
-Status check_pictures(const PictureOutput& output, double timestep, std::uint64_t first_step,
-                      std::uint64_t last_step) {
+Status check_frame_count(const PictureOutput& output, double timestep, std::uint64_t first_step,
+                         std::uint64_t last_step) {
   if (!output.any() && !output.any_page()) return {};
   const double fps = frames_per_second(output);
-  if (FrameSchedule(timestep, first_step, last_step, fps, output.speed).count() <= most_pictures) return {};
-  // As many pictures as there may be take this many seconds each, and a little for rounding below.
+  if (FrameSchedule(timestep, first_step, last_step, fps, output.speed).count() <= most_frames) return {};
+  // With the most frames, each of them takes this many seconds, and a little for rounding below.
   const double each =
-      1.01 * static_cast<double>(last_step - first_step) * timestep / static_cast<double>(most_pictures);
+      1.01 * static_cast<double>(last_step - first_step) * timestep / static_cast<double>(most_frames);
   return advised(
-      fail(ErrorCode::usage, "speed {} and {} pictures per second make more than {} pictures of this run.",
-           output.speed, fps, most_pictures),
+      fail(ErrorCode::usage, "speed {} and {} frames per second make more than {} frames of this run.",
+           output.speed, fps, most_frames),
       {{RemedyKind::raise_speed, {fmt::format("{:.3g}", fps * each)}},
        {RemedyKind::lower_fps, {fmt::format("{:.3g}", output.speed / each)}}});
 }
@@ -55,7 +55,7 @@ struct Recorder::Parts {
   std::optional<std::uint64_t> last_shown = {};
   double simulate_seconds = 0.0;
   std::shared_ptr<gl::Context> own_context = nullptr;
-  std::unique_ptr<FilmPainter> film = nullptr;
+  std::unique_ptr<VideoPainter> video = nullptr;
   State copy = {};  // where the view needs one
 };
 
@@ -63,15 +63,15 @@ Recorder::Recorder(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Recorder::~Recorder() = default;
 
 void Recorder::abandon() {
-  parts_->film->abandon();
+  parts_->video->abandon();
 }
 
 std::vector<Error> Recorder::failures() const {
-  return parts_->film->recording().failures();
+  return parts_->video->recording().failures();
 }
 
 std::vector<std::string> Recorder::written() {
-  return parts_->film->recording().written();
+  return parts_->video->recording().written();
 }
 
 void Recorder::add_simulation(double seconds) {
@@ -79,7 +79,7 @@ void Recorder::add_simulation(double seconds) {
 }
 
 const std::string& Recorder::device() const {
-  return parts_->film->device();
+  return parts_->video->device();
 }
 
 Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, const Scene& scene,
@@ -88,18 +88,18 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
                                                    std::uint64_t first_step, std::uint64_t last_step) {
   const Model& model = backend.solver->model();
   const double fps = frames_per_second(output);
-  ASPIC_CHECK(check_pictures(output, model.simulation.timestep, first_step, last_step));
+  ASPIC_CHECK(check_frame_count(output, model.simulation.timestep, first_step, last_step));
   const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, fps, output.speed);
   auto parts = std::make_unique<Parts>(Parts{output, scene, backend, schedule});
-  ASPIC_TRY(const PictureContext made, picture_context(backend));
+  ASPIC_TRY(const FrameContext made, frame_context(backend));
   parts->own_context = made.own;
   parts->following = Following(scene, model, backend.solver->precision());
-  ASPIC_TRY(parts->film, FilmPainter::create(*made.context, output, {{&scene, &model}}, std::move(sinks)));
+  ASPIC_TRY(parts->video, VideoPainter::create(*made.context, output, {{&scene, &model}}, std::move(sinks)));
   return std::unique_ptr<Recorder>(new Recorder(std::move(parts)));
 }
 
 FrameTimes Recorder::times() const {
-  FrameTimes times = parts_->film->times();
+  FrameTimes times = parts_->video->times();
   times.simulate = parts_->simulate_seconds;
   return times;
 }
@@ -119,10 +119,10 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   const GpuSolver* const gpu = gpu_of(parts_->backend);
   State& copy = parts_->copy;
   if (needs_copy(parts_->scene, parts_->following)) ASPIC_CHECK(read_state(solver, copy));
-  ShownRun shown = shown_run(parts_->scene, parts_->following, solver, step, copy,
-                             {parts_->output.size, parts_->output.text});
-  const PaintedState state = {&solver, gpu ? gpu->device_state() : DeviceState()};
-  ASPIC_CHECK(parts_->film->add({state}, {std::move(shown)}, copies));
+  RunView shown = run_view(parts_->scene, parts_->following, solver, step, copy,
+                           {parts_->output.size, parts_->output.text});
+  const RenderedState state = {&solver, gpu ? gpu->device_state() : DeviceState()};
+  ASPIC_CHECK(parts_->video->add({state}, {std::move(shown)}, copies));
   parts_->last_shown = step;
   return {};
 }
@@ -130,11 +130,11 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
 Status Recorder::finish(Solver& solver, std::uint64_t step) {
   if (parts_->last_shown != step) {
     if (const Status drawn = draw(solver, step, 1); !drawn) {
-      parts_->film->abandon();
+      parts_->video->abandon();
       return drawn;
     }
   }
-  return parts_->film->finish();
+  return parts_->video->finish();
 }
 
 }  // namespace aspic

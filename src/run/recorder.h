@@ -1,14 +1,14 @@
 #pragma once
-// How many pictures a run makes.
+// The number of frames of a run.
 #include <cstdint>
 
 #include "aspic/run.h"
 
 namespace aspic {
 
-/// Whether the pictures of a run can be counted. Error (usage): speed and pictures per second make more than
-/// was meant.
-Status check_pictures(const PictureOutput& output, double timestep, std::uint64_t first_step,
-                      std::uint64_t last_step);
+/// Checks the number of frames of a run. Error (usage): speed and frames per second make more than anybody
+/// can have meant.
+Status check_frame_count(const PictureOutput& output, double timestep, std::uint64_t first_step,
+                         std::uint64_t last_step);
 
 }  // namespace aspic

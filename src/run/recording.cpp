@@ -12,21 +12,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What waits for the encoder at most: room for its hiccups, little next to a simulation.
+/// Most bytes of frames that wait for the encoder: little next to a simulation.
 constexpr std::size_t most_waiting_bytes = std::size_t{128} << 20;
 
 }  // namespace
 
 Result<std::unique_ptr<Recording>> Recording::start(gl::Context& context,
                                                     std::vector<std::unique_ptr<FrameSink>> sinks,
-                                                    FilmOptions options) {
+                                                    VideoOptions options) {
   ASPIC_TRY(auto ring, gl::PixelRing::create(context, options.size.width, options.size.height));
   return std::unique_ptr<Recording>(
       new Recording(context, std::move(ring), std::move(sinks), std::move(options)));
 }
 
 Recording::Recording(gl::Context& context, gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks,
-                     FilmOptions options)
+                     VideoOptions options)
     : context_(context), options_(std::move(options)), ring_(std::move(ring)), sinks_(std::move(sinks)) {
   const std::size_t bytes =
       3 * static_cast<std::size_t>(options_.size.width) * static_cast<std::size_t>(options_.size.height);
@@ -61,27 +61,27 @@ void Recording::wait_until_ready() {
 Status Recording::hand_on() {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
-  Picture picture;
-  picture.copies = copies_.front();
+  Frame frame;
+  frame.copies = copies_.front();
   copies_.pop_front();
   const auto before = Clock::now();
-  ASPIC_CHECK(ring_.take(picture.pixels));
+  ASPIC_CHECK(ring_.take(frame.pixels));
   read_seconds_ += seconds_since(before);
   {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back(std::move(picture));
+    waiting_.push_back(std::move(frame));
   }
   changed_.notify_all();
   return {};
 }
 
-Status Recording::add(const gl::Framebuffer& picture, std::uint64_t copies) {
+Status Recording::add(const gl::Framebuffer& frame, std::uint64_t copies) {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
   if (ring_.full()) ASPIC_CHECK(hand_on());
-  ring_.submit(picture);
+  ring_.submit(frame);
   copies_.push_back(copies);
-  pictures_ += copies;
+  frames_ += copies;
   return {};
 }
 
@@ -137,7 +137,7 @@ std::vector<std::string> Recording::written() {
 FrameTimes Recording::times() const {
   const std::lock_guard lock(mutex_);
   FrameTimes times;
-  times.frames = pictures_;
+  times.frames = frames_;
   times.read = read_seconds_;
   times.encode = encode_seconds_;
   return times;
@@ -150,7 +150,7 @@ bool Recording::carry_out(std::unique_ptr<FrameSink>& sink, const Work& work) {
   try {
     done = work(*sink);
   } catch (const std::bad_alloc&) {
-    done = Error{ErrorCode::io, "The film could not be written: there is not enough memory."};
+    done = Error{ErrorCode::io, "The video could not be written: there is not enough memory."};
   }
   if (done) return true;
   sink.reset();
@@ -159,10 +159,10 @@ bool Recording::carry_out(std::unique_ptr<FrameSink>& sink, const Work& work) {
   return false;
 }
 
-void Recording::write(const Picture& picture) {
+void Recording::write(const Frame& frame) {
   for (auto& sink : sinks_) {
-    for (std::uint64_t i = 0; sink && i < picture.copies; ++i)
-      carry_out(sink, [&](FrameSink& to) { return to.write(picture.pixels); });
+    for (std::uint64_t i = 0; sink && i < frame.copies; ++i)
+      carry_out(sink, [&](FrameSink& to) { return to.write(frame.pixels); });
   }
 }
 
@@ -174,12 +174,12 @@ void Recording::encode() {
   while (any_left()) {
     changed_.wait(lock, [this] { return !waiting_.empty() || no_more_; });
     if (abandoned_ || waiting_.empty()) break;
-    Picture picture = std::move(waiting_.front());
+    Frame frame = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
     changed_.notify_all();
     const auto before = Clock::now();
-    write(picture);
+    write(frame);
     const double took = seconds_since(before);
     lock.lock();
     encode_seconds_ += took;

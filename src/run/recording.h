@@ -1,5 +1,5 @@
 #pragma once
-// Pictures on their way to the disk: read back from the device, encoded by a thread of its own.
+// Writes frames: reads them back from the device and encodes them on a thread of its own.
 #include <condition_variable>
 #include <deque>
 #include <memory>
@@ -15,53 +15,52 @@
 
 namespace aspic {
 
-/// What the pictures of a film have in common.
-struct FilmOptions {
+/// Path, rate and size of a video.
+struct VideoOptions {
   std::string path;   ///< of the first sink
-  double fps = 60.0;  ///< pictures shown per second, > 0
+  double fps = 60.0;  ///< frames shown per second, > 0
   PictureSize size;
 };
 
-/// Takes pictures of one size. Nothing is dropped: while the encoder is behind, ready() is false. A sink that
-/// fails is lost alone; the others continue. One that is destroyed before its end() leaves no film file, only
-/// the pictures of a directory. Every call enters the context (gpu/current.h).
+/// Takes frames of one size and drops none: while the encoder is behind, ready() is false. If a sink fails,
+/// the others continue. A recording destroyed before end() leaves no video file, only the frames of a
+/// directory. Every call enters the context (gpu/current.h).
 class Recording {
  public:
-  /// All sinks get every picture. Error (scene_rejected): no device memory. The context must outlive end().
+  /// All sinks get every frame. Error (scene_rejected): no device memory. The context must outlive end().
   static Result<std::unique_ptr<Recording>> start(gl::Context& context,
                                                   std::vector<std::unique_ptr<FrameSink>> sinks,
-                                                  FilmOptions options);
+                                                  VideoOptions options);
   ~Recording();
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
-  const FilmOptions& options() const { return options_; }
-  /// Pictures taken so far, and how long the film is with them [s].
-  std::uint64_t pictures() const { return pictures_; }
-  double seconds() const { return static_cast<double>(pictures_) / options_.fps; }
+  const VideoOptions& options() const { return options_; }
+  /// Frames taken so far, and the length of the video with them [s].
+  std::uint64_t frames() const { return frames_; }
+  double seconds() const { return static_cast<double>(frames_) / options_.fps; }
 
-  /// Whether a picture can be added without waiting for the encoder.
+  /// Whether a frame can be added without waiting for the encoder.
   bool ready() const;
   /// Waits until it can.
   void wait_until_ready();
-  /// Adds a picture of the options' size, `copies` ≥ 1 times; legal until end(). Error (no_device): the
+  /// Adds a frame of the options' size, `copies` ≥ 1 times; legal until end(). Error (no_device): the
   /// device was lost.
-  Status add(const gl::Framebuffer& picture, std::uint64_t copies);
+  Status add(const gl::Framebuffer& frame, std::uint64_t copies);
 
-  /// Hands the oldest picture on the device to the encoder, if there is one: once for each of the window's
-  /// pictures that is none of the film's. Error as add().
+  /// Hands the oldest frame on the device to the encoder, if there is one. Call it for each frame of the
+  /// window that the video does not take. Error as add().
   Status progress();
-  /// No more pictures: the film is completed by the thread. Pictures that a lost device still held are
-  /// missing.
+  /// Ends the video, which the thread completes. Frames that a lost device still held are missing.
   void end();
-  /// The same, but every picture must come from the device. Error (no_device): one did not; then no film file
-  /// is left, only the pictures of a directory.
+  /// The same, but every frame must come from the device. Error (no_device): one did not; then no video file
+  /// is left, only the frames of a directory.
   Status end_complete();
-  /// Ends without a film file.
+  /// Ends without a video file.
   void abandon();
-  /// The thread is through, be it with the film or with an error.
+  /// Whether the thread has ended, with the video or with an error.
   bool completed() const;
-  /// Waits for that. Error (io): the first of failures(). A film file that fails leaves nothing behind.
+  /// Waits for that. Error (io): the first of failures(). A video file that fails leaves nothing behind.
   Status result();
   /// Of the sinks that could not be written so far. When all are lost, the recording is completed.
   std::vector<Error> failures() const;
@@ -72,29 +71,29 @@ class Recording {
 
  private:
   Recording(gl::Context& context, gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks,
-            FilmOptions options);
-  struct Picture {
+            VideoOptions options);
+  struct Frame {
     std::vector<std::byte> pixels;
     std::uint64_t copies = 1;
   };
   Status hand_on();
   void encode();
-  void write(const Picture& picture);
+  void write(const Frame& frame);
   template <class Work>
   bool carry_out(std::unique_ptr<FrameSink>& sink, const Work& work);
 
   gl::Context& context_;
-  FilmOptions options_;
+  VideoOptions options_;
   gl::PixelRing ring_;
-  std::deque<std::uint64_t> copies_;  // of the ring's pictures
-  std::uint64_t pictures_ = 0;
+  std::deque<std::uint64_t> copies_;  // of the ring's frames
+  std::uint64_t frames_ = 0;
   double read_seconds_ = 0.0;
   std::size_t most_waiting_;
   bool ended_ = false;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Picture> waiting_;  // guarded, as all below
+  std::deque<Frame> waiting_;  // guarded, as all below
   bool no_more_ = false, abandoned_ = false, completed_ = false;
   std::vector<Error> failures_;
   std::vector<std::string> written_;

@@ -13,7 +13,7 @@ namespace aspic {
 /// Whether the names of all outputs say formats that these options have. Error (usage).
 Status check_endings(const std::vector<StateOutput>& outputs);
 
-/// The pictures per second that were asked for, or what the formats have where nothing was.
+/// The frames per second of the options, or else those of the format.
 double frames_per_second(const PictureOutput& output);
 
 /// A name in the working directory that nothing has yet: `aspic-cube-plane-0001.mp4`. `scene` is a file or a

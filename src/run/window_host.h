@@ -1,5 +1,5 @@
 #pragma once
-// What windows, pictures and reports share with a solver on a device: its context and its state.
+// Context and state of a solver on a device, as windows, rendering and reports share them.
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,12 +54,12 @@ GpuSolver* gpu_of(const Backend& backend);
 /// Where that solver works; null with gpu_of().
 gl::Context* context_of(const Backend& backend);
 
-/// Where pictures of a backend's states are drawn.
-struct PictureContext {
+/// Where frames of a backend's states are rendered.
+struct FrameContext {
   gl::Context* context = nullptr;              ///< never null
   std::shared_ptr<gl::Context> own = nullptr;  ///< keeps it alive; null: the solver does
 };
 /// The solver's own context, or else a new headless one. Error (no_device).
-Result<PictureContext> picture_context(const Backend& backend);
+Result<FrameContext> frame_context(const Backend& backend);
 
 }  // namespace aspic

@@ -13,7 +13,7 @@
 #include "io/atomic_file.h"
 #include "io/state_sink.h"
 #include "render/read_back.h"
-#include "run/comparison.h"
+#include "render/tiles.h"
 #include "scene/follow.h"
 #include "support/projection.h"
 #include "support/state_csv_reader.h"
@@ -399,9 +399,9 @@ TEST_F(Comparison, AFilmShowsAllRunsAsEachIsDrawnAlone) {
   ASSERT_TRUE(app().film.recording()) << app().messages.notice()->text;
   const PictureSize size = app().film.recording()->options().size;
   EXPECT_EQ(size.width, std::lround(app().view.whole.right - app().view.whole.left));
-  EXPECT_EQ(app().film.recording()->pictures(), 1u) << "the start, at once";
+  EXPECT_EQ(app().film.recording()->frames(), 1u) << "the start, at once";
   simulation().set_running(true);
-  frames_until([&] { return app().film.recording()->pictures() >= 4; });
+  frames_until([&] { return app().film.recording()->frames() >= 4; });
   EXPECT_EQ(simulation().step(), 150u) << "the motion waits for each picture";
   EXPECT_DOUBLE_EQ(comparison().shown_time(1), comparison().shown_time(0));
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
@@ -451,8 +451,8 @@ TEST_F(Comparison, AFilmWithTextTellsRunsApartAndGoesOnAfterADivergence) {
   const PictureSize size = app().film.recording()->options().size;
   simulation().set_running(true);
   frames_until([&] { return run(0).divergence().has_value(); });
-  const std::uint64_t then = app().film.recording()->pictures();
-  frames_until([&] { return app().film.recording()->pictures() >= then + 3; });
+  const std::uint64_t then = app().film.recording()->frames();
+  frames_until([&] { return app().film.recording()->frames() >= then + 3; });
   EXPECT_EQ(&comparison().clock().setter(), &run(1));
   EXPECT_FALSE(has("comparison/0/label")) << "names are in the film's pictures";
   app().film.stop();

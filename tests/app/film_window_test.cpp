@@ -64,9 +64,8 @@ class Film : public Stage {
     ASSERT_TRUE(app().film.recording()) << app().messages.notice()->text;
   }
   void frames_to_pictures(std::uint64_t pictures) {
-    for (int i = 0; app().film.recording() && app().film.recording()->pictures() < pictures; ++i) {
-      ASSERT_LT(i, 20000) << app().film.recording()->pictures() << " pictures at step "
-                          << simulation().step();
+    for (int i = 0; app().film.recording() && app().film.recording()->frames() < pictures; ++i) {
+      ASSERT_LT(i, 20000) << app().film.recording()->frames() << " pictures at step " << simulation().step();
       frames(1);
     }
     ASSERT_TRUE(app().film.recording());
@@ -301,30 +300,30 @@ TEST_F(Film, TextStandsInThePictureIfWanted) {
 TEST_F(Film, PausesJumpsAndOtherScenesAreFilmedAsShown) {
   open_small();
   record(find_film_format("png"), 50.0, "film");
-  EXPECT_EQ(app().film.recording()->pictures(), 1u) << "the start";
+  EXPECT_EQ(app().film.recording()->frames(), 1u) << "the start";
   frames(5);
-  EXPECT_EQ(app().film.recording()->pictures(), 1u) << "no time passes, no picture";
+  EXPECT_EQ(app().film.recording()->frames(), 1u) << "no time passes, no picture";
   for (int i = 0; i < 40; ++i) type(U'.');
-  EXPECT_EQ(app().film.recording()->pictures(), 3u)
+  EXPECT_EQ(app().film.recording()->frames(), 3u)
       << "single steps pass no picture by, even between two frames";
   press(GLFW_KEY_R);
   frames(1);
-  EXPECT_EQ(app().film.recording()->pictures(), 4u) << "the start again, at once";
+  EXPECT_EQ(app().film.recording()->frames(), 4u) << "the start again, at once";
   for (int i = 0; i < 20; ++i) type(U'.');
-  EXPECT_EQ(app().film.recording()->pictures(), 5u);
+  EXPECT_EQ(app().film.recording()->frames(), 5u);
   // Another constant changes nothing about the pace; twice the step comes twice as far.
   app().scene.set_value(*find_parameter("simulation.timestep"), 0, Value(0.002), "");
   frames(2);
   for (int i = 0; i < 10; ++i) type(U'.');
-  EXPECT_EQ(app().film.recording()->pictures(), 6u);
+  EXPECT_EQ(app().film.recording()->frames(), 6u);
   type(U'+');
   for (int i = 0; i < 20; ++i) type(U'.');
-  EXPECT_EQ(app().film.recording()->pictures(), 7u) << "twice as fast: 40 ms for each picture";
+  EXPECT_EQ(app().film.recording()->frames(), 7u) << "twice as fast: 40 ms for each picture";
   const PictureSize size = app().film.recording()->options().size;
   app().scene.open("cube-sphere");
   press(GLFW_KEY_TAB);
   frames(3);
-  EXPECT_EQ(app().film.recording()->pictures(), 8u) << "the other scene's start";
+  EXPECT_EQ(app().film.recording()->frames(), 8u) << "the other scene's start";
   press(GLFW_KEY_G);
   press(GLFW_KEY_SPACE);
   frames_to_pictures(10);
@@ -454,7 +453,7 @@ TEST_F(Film, TheMotionWaitsForASlowEncoderAndNoPictureIsLost) {
   press(GLFW_KEY_R);
   frames(1);
   EXPECT_EQ(simulation().step(), 0u) << "a reset is filmed, and waits again";
-  const std::uint64_t so_far = app().film.recording()->pictures();
+  const std::uint64_t so_far = app().film.recording()->frames();
   std::ofstream(directory() / "go") << "go";
   frames_to_pictures(so_far + 5);
   EXPECT_EQ(simulation().step(), 83u) << "five pictures after the start";

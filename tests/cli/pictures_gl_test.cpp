@@ -55,7 +55,7 @@ std::string probe(const std::string& file) {
   return text;
 }
 
-TEST(PictureCost, IsToldByPass) {
+TEST(FrameCost, IsReportedByPass) {
   const auto run = aspic(
       {"bench", "--pictures", "128x96", "--backend", "reference", "--set", "cube[0].particles-per-edge=4",
        "--duration", "0.1", "--repeats", "2", "--warm-up", "0", "--json"},
@@ -78,7 +78,7 @@ TEST(PictureCost, IsToldByPass) {
   EXPECT_GT(sum, 0.0);
 }
 
-TEST(PictureCost, RefusesWhatItDoesNotMeasure) {
+TEST(FrameCost, RejectsOptionsOfOtherMeasurements) {
   for (const Words& words : {Words{"--pictures", "128"}, Words{"--pictures", "128x96", "--seconds", "1"},
                              Words{"--pictures", "128x96", "--size", "4"}}) {
     Words all = {"bench"};

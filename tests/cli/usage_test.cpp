@@ -278,7 +278,7 @@ TEST(Usage, PicturesThatCannotBeCountedLeaveNothingBehind) {
     words.insert(words.end(), more.begin(), more.end());
     const auto run = aspic(words);
     EXPECT_EQ(run.exit_code, 2) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("pictures of this run. Use --speed "));
+    EXPECT_THAT(run.err, HasSubstr("frames of this run. Use --speed "));
     EXPECT_EQ(dir.entries(), 0u);
   }
 }

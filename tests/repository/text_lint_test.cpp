@@ -85,6 +85,7 @@ std::string room_of_public(const std::string& header) {
   if (header == "error" || header == "export" || header == "version") return "base";
   if (header == "files") return "io";
   if (header == "parameters") return "scene";
+  if (header == "sweep") return "variants";
   return std::filesystem::is_directory(root / "src" / header) ? header : "model";
 }
 

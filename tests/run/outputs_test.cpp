@@ -144,18 +144,18 @@ TEST(CheckPictures, RefusesWhatCannotBeCountedAndSaysWhatFits) {
   output.frames = "z";
   output.fps = 60.0;
   output.speed = 1e-300;
-  const Status refused = check_pictures(output, 0.001, 100, 5100);
+  const Status refused = check_frame_count(output, 0.001, 100, 5100);
   ASSERT_FALSE(refused.ok());
   ASSERT_EQ(refused.error().remedies.size(), 2u);
   EXPECT_EQ(refused.error().remedies[0].kind, RemedyKind::raise_speed);
   output.speed = std::stod(refused.error().remedies[0].values[0]);
-  EXPECT_TRUE(check_pictures(output, 0.001, 100, 5100).ok());
+  EXPECT_TRUE(check_frame_count(output, 0.001, 100, 5100).ok());
   output.speed /= 2.0;
-  const Status still = check_pictures(output, 0.001, 100, 5100);
+  const Status still = check_frame_count(output, 0.001, 100, 5100);
   ASSERT_FALSE(still.ok());
   EXPECT_EQ(still.error().remedies[1].kind, RemedyKind::lower_fps);
   output.fps = std::stod(still.error().remedies[1].values[0]);
-  EXPECT_TRUE(check_pictures(output, 0.001, 100, 5100).ok());
+  EXPECT_TRUE(check_frame_count(output, 0.001, 100, 5100).ok());
 }
 
 TEST_F(Outputs, OneNameForTwoFilesIsRefused) {

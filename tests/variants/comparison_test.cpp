@@ -1,11 +1,9 @@
-// Runs compared, as plain data: what differs, and where its picture lies.
+// Runs that are compared, and their names.
 
-#include "run/comparison.h"
+#include "variants/comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "aspic/scene.h"
 
@@ -20,7 +18,7 @@ Scene small_scene() {
   return load_scene("cube-plane", small).value();
 }
 
-TEST(Comparison, DifferenceIsKeyAndValue) {
+TEST(Comparison, ParsesKeyAndValue) {
   const auto variation = parse_difference("cube[0].name-of=a=b");
   ASSERT_TRUE(variation.ok());
   EXPECT_EQ(variation->key, "cube[0].name-of");
@@ -33,7 +31,7 @@ TEST(Comparison, DifferenceIsKeyAndValue) {
   }
 }
 
-TEST(Comparison, EachRunHasItsOwnDifferenceAlone) {
+TEST(Comparison, GivesEachRunOneDifference) {
   const Scene scene = small_scene();
   const auto runs =
       variants_of(scene, {}, {{"integrator", "implicit-euler"}, {"h", "0.002"}, {"backend", "cpu"}});
@@ -50,7 +48,7 @@ TEST(Comparison, EachRunHasItsOwnDifferenceAlone) {
   EXPECT_EQ((*runs)[3].backend.row->name, "cpu");
 }
 
-TEST(Comparison, WrongDifferencesSayWhichAndWhy) {
+TEST(Comparison, NamesTheWrongDifferenceAndTheReason) {
   const auto message = [](const std::vector<Difference>& differences) {
     const auto runs = variants_of(small_scene(), {}, differences);
     EXPECT_FALSE(runs.ok());
@@ -65,7 +63,7 @@ TEST(Comparison, WrongDifferencesSayWhichAndWhy) {
   EXPECT_THAT(message({{"h", "0.1"}, {"h", "0.2"}, {"h", "0.3"}, {"h", "0.4"}}), HasSubstr("at most 3"));
 }
 
-TEST(Comparison, LabelHasALineForEachKeyOnce) {
+TEST(Comparison, LabelsEachKeyOnce) {
   const std::vector<Difference> differences = {{"integrator", "implicit-euler"},
                                                {"h", "0.002"},
                                                {"h", "0.004"},
@@ -81,33 +79,7 @@ TEST(Comparison, LabelHasALineForEachKeyOnce) {
   EXPECT_THAT(values, ElementsAre("explicit Euler", "0.001 s", "reference", testing::EndsWith(" N/m")));
 }
 
-TEST(Comparison, TextTellsOfADivergence) {
-  Divergence divergence;
-  divergence.step = 40;
-  const auto lines = comparison_text("k 1 N/m", 1, 0.039, 0.001, divergence);
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0].label, "k 1 N/m");
-  EXPECT_EQ(lines[0].value, "0.039 s");
-  EXPECT_EQ(lines[0].tint, run_tint(1));
-  EXPECT_FALSE(lines[0].alarm);
-  EXPECT_EQ(lines[1].value, "at 0.040 s");
-  EXPECT_TRUE(lines[1].alarm);
-  EXPECT_EQ(comparison_text("k 1 N/m", 1, 0.039, 0.001, {}).size(), 1u);
-}
-
-TEST(Comparison, TheAuthorStandsAboveTheFirstText) {
-  Scene scene;
-  EXPECT_EQ(below_author(scene, {{"a", "1 s"}}).size(), 1u);
-  scene.author = "Ada Lovelace";
-  const auto lines = below_author(scene, {{"a", "1 s"}});
-  ASSERT_EQ(lines.size(), 2u);
-  // One label, which may take several lines.
-  EXPECT_EQ(lines[0].label, "author Ada Lovelace");
-  EXPECT_EQ(lines[0].value, "");
-  EXPECT_EQ(lines[1].label, "a");
-}
-
-TEST(Comparison, NamesAreShort) {
+TEST(Comparison, NamesRunsByTheirDifferences) {
   const std::vector<Difference> differences = {
       {"integrator", "implicit-euler"}, {"h", "0.002"}, {"h", "0.004"}, {"cube[0].shear.stiffness", "10"}};
   const Scene scene = small_scene();
@@ -124,16 +96,7 @@ TEST(Comparison, NamesAreShort) {
   EXPECT_EQ(name(3), "shear stiffness 10 N/m");
 }
 
-TEST(Comparison, TilesAreEqualAndApart) {
-  EXPECT_THAT(tiles_of({640, 360}, 1), ElementsAre(Tile{0, 0, 640, 360}));
-  EXPECT_THAT(tiles_of({640, 360}, 2), ElementsAre(Tile{0, 0, 319, 360}, Tile{321, 0, 319, 360}));
-  EXPECT_THAT(tiles_of({360, 640}, 2), ElementsAre(Tile{0, 0, 360, 319}, Tile{0, 321, 360, 319}));
-  EXPECT_THAT(tiles_of({641, 361}, 4), ElementsAre(Tile{0, 0, 319, 179}, Tile{322, 0, 319, 179},
-                                                   Tile{0, 182, 319, 179}, Tile{322, 182, 319, 179}));
-  EXPECT_EQ(tiles_of({640, 360}, 3).size(), 3u);
-}
-
-TEST(Comparison, FilesAreNumberedBeforeTheirEnding) {
+TEST(Comparison, NumbersFilesBeforeTheirEnding) {
   EXPECT_EQ(numbered_path("energy.csv", 2), "energy-2.csv");
   EXPECT_EQ(numbered_path("out.d/states", 1), "out.d/states-1");
 }

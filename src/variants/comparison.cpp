@@ -1,4 +1,4 @@
-#include "run/comparison.h"
+#include "variants/comparison.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/printable.h"
-#include "render/overlay_text.h"
+#include "render/tiles.h"
 #include "scene/short_keys.h"
 
 namespace aspic {
@@ -51,13 +51,6 @@ std::vector<OverlayLine> label_of(const std::vector<Difference>& differences, co
   return label;
 }
 
-Colour run_tint(std::size_t run) {
-  Colour colour;
-  for (std::size_t c = 0; c < 3; ++c)
-    colour[c] = static_cast<float>(srgb_to_linear(run_colours[run][c] / 255.0));
-  return colour;
-}
-
 namespace {
 
 /// "implicit Euler", "h 0.0005 s", "shear stiffness 20 N/m".
@@ -88,74 +81,6 @@ std::string short_name(std::size_t run, const std::vector<Difference>& differenc
     if (std::ranges::find(parts, part) == parts.end()) parts.push_back(std::move(part));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-std::vector<OverlayLine> comparison_text(const std::string& name, std::size_t run, double time,
-                                         double timestep, const std::optional<Divergence>& divergence) {
-  std::vector<OverlayLine> text = {{name, fmt::format("{:.3f} s", time), false, run_tint(run)}};
-  if (divergence) {
-    const double when = static_cast<double>(divergence->step) * timestep;
-    text.push_back({"diverged", fmt::format("at {:.3f} s", when), true});
-  }
-  return text;
-}
-
-std::vector<OverlayLine> below_author(const Scene& scene, std::vector<OverlayLine> text) {
-  // As one label, which takes several lines where a part is narrow.
-  for (const OverlayLine& line : author_lines(scene))
-    text.insert(text.begin(), {fmt::format("{} {}", line.label, line.value), ""});
-  return text;
-}
-
-int comparison_text_height(int picture_height, std::size_t runs) {
-  return std::clamp(picture_height / (runs > 2 ? 40 : 32), 11, 256);
-}
-
-std::vector<Tile> tiles_of(const PictureSize& picture, std::size_t runs) {
-  constexpr int gap = 2;
-  const bool wide = picture.width >= picture.height;
-  const int columns = runs > 2 || (runs == 2 && wide) ? 2 : 1;
-  const int rows = runs > 2 || (runs == 2 && !wide) ? 2 : 1;
-  const auto part = [](int whole, int parts) { return parts == 1 ? whole : std::max((whole - gap) / 2, 1); };
-  const int width = part(picture.width, columns), height = part(picture.height, rows);
-  std::vector<Tile> tiles;
-  for (int i = 0; i < static_cast<int>(runs); ++i) {
-    const bool right = i % columns == 1, low = i / columns == 1;
-    tiles.push_back({right ? picture.width - width : 0, low ? picture.height - height : 0, width, height});
-  }
-  return tiles;
-}
-
-Result<ComparisonCanvas> ComparisonCanvas::create(gl::Context& context, const PictureSize& size) {
-  ComparisonCanvas canvas;
-  ASPIC_TRY(canvas.image_, DrawableImage::create(context, "runs side by side",
-                                                 {.width = size.width, .height = size.height}, false));
-  return canvas;
-}
-
-void ComparisonCanvas::divide(std::size_t runs) {
-  const gl::Framebuffer& whole = image_.framebuffer;
-  std::vector<Tile> tiles = tiles_of({whole.width(), whole.height()}, runs);
-  if (tiles == tiles_) return;
-  tiles_ = std::move(tiles);
-  whole.clear();
-}
-
-void ComparisonCanvas::place(std::size_t run, const gl::Framebuffer& picture, bool framed) {
-  const gl::Framebuffer& whole = image_.framebuffer;
-  const Tile& tile = tiles_[run];
-  const int bottom = whole.height() - tile.top - tile.height, right = tile.left + tile.width,
-            top = bottom + tile.height;
-  whole.place(picture, tile.left, bottom);
-  if (!framed) return;
-  const int wide = std::max(whole.height() / 240, 1);
-  std::array<float, 3> colour;
-  for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<float>(run_colours[run][c]) / 255.0f;
-  for (const gl::PixelBox& edge : {gl::PixelBox{tile.left, bottom, tile.left + wide, top},
-                                   {right - wide, bottom, right, top},
-                                   {tile.left, bottom, right, bottom + wide},
-                                   {tile.left, top - wide, right, top}})
-    whole.fill(edge, colour);
 }
 
 std::string numbered_path(const std::string& path, std::size_t number) {

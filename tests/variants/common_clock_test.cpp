@@ -1,4 +1,4 @@
-#include "run/common_clock.h"
+#include "variants/common_clock.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "run/run_folder.h"
+#include "variants/run_folder.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 #include "aspic/version.h"
 #include "base/files.h"
 #include "io/atomic_file.h"
-#include "run/sweep_figures.h"
+#include "variants/sweep_figures.h"
 
 namespace aspic {
 namespace {

@@ -6,30 +6,30 @@
 #include <vector>
 
 #include "base/result.h"
-#include "run/picture_painter.h"
+#include "render/frame_painter.h"
 #include "run/recording.h"
 #include "run/run_files.h"
 
 namespace aspic {
 
-/// A run's state on its way into a frame.
-struct PaintedState {
+/// A state to render.
+struct RenderedState {
   Solver* solver = nullptr;  ///< that is at the state
   DeviceState there = {};    ///< where the state lies on the device; without particles: in memory
 };
 
-/// Renders frames and hands them to a recording, in their order.
-class FilmPainter {
+/// Renders the frames of a video and hands them to a recording, in order.
+class VideoPainter {
  public:
-  /// The context, and what the runs refer to, must outlive it. Errors: those of PicturePainter::create() and
+  /// The context, and what the runs refer to, must outlive it. Errors: those of FramePainter::create() and
   /// Recording::start().
-  static Result<std::unique_ptr<FilmPainter>> create(gl::Context& context, const PictureOutput& output,
-                                                     std::vector<PaintedRun> runs,
-                                                     std::vector<std::unique_ptr<FrameSink>> sinks);
+  static Result<std::unique_ptr<VideoPainter>> create(gl::Context& context, const PictureOutput& output,
+                                                      std::vector<RenderedRun> runs,
+                                                      std::vector<std::unique_ptr<FrameSink>> sinks);
 
   /// Adds a frame of the runs' states, `copies` ≥ 1 times; they may change afterwards. Errors: those of
   /// rendering; once all outputs are lost, the encoder's.
-  Status add(const std::vector<PaintedState>& states, const std::vector<ShownRun>& shown,
+  Status add(const std::vector<RenderedState>& states, const std::vector<RunView>& views,
              std::uint64_t copies);
   /// All frames are added: completes the outputs. Errors as add().
   Status finish();
@@ -44,11 +44,11 @@ class FilmPainter {
   const std::string& device() const { return context_->info().renderer; }
 
  private:
-  explicit FilmPainter(gl::Context& context) : context_(&context) {}
+  explicit VideoPainter(gl::Context& context) : context_(&context) {}
 
   gl::Context* context_;
   double draw_seconds_ = 0.0;
-  std::unique_ptr<PicturePainter> painter_;
+  std::unique_ptr<FramePainter> painter_;
   std::unique_ptr<Recording> recording_;
 };
 

@@ -25,7 +25,7 @@ struct Variant {
 Result<Variant> varied(const Scene& scene, const BackendChoice& backend,
                        std::span<const Difference> differences);
 
-/// What a key is called on a picture: "integrator", "time step h", "cube[1].shear.stiffness".
+/// The name of a key in a frame: "integrator", "time step h", "cube[1].shear.stiffness".
 std::string title_of(std::string_view key);
 /// The value that a key has in a run, for people, with its unit: "implicit Euler", "2000 N/m". A dash where
 /// it has none. `backend`: what computes the run, for backend_key.

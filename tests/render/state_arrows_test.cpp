@@ -1,4 +1,4 @@
-#include "run/arrows.h"
+#include "render/state_arrows.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ std::size_t count(const ArrowSet& set, ArrowKind kind) {
   return static_cast<std::size_t>(std::ranges::count(set.arrows, kind, &Arrow::kind));
 }
 
-TEST(Arrows, AreTheReferencesForces) {
+TEST(StateArrows, ShowTheForcesOfParticles) {
   const Model model = test::build(test::low_cube(5, Integrator::explicit_euler, ContactModel::coulomb));
   State state = initial_state(model, Precision::single);
   for (std::size_t i = 0; i < state.position.size(); i += 3) state.position[i].x += 0.05;
@@ -35,7 +35,7 @@ TEST(Arrows, AreTheReferencesForces) {
   EXPECT_TRUE(arrows_of(model, state, {}).arrows.empty());
 }
 
-TEST(Arrows, OfContactsAreNormalsAndForces) {
+TEST(StateArrows, ShowNormalsAndForcesOfContacts) {
   ModelSettings settings = test::low_cube(4, Integrator::explicit_euler, ContactModel::coulomb);
   settings.cubes[0].rotation.angle = 0.0;
   settings.cubes[0].position = {0.0, 1.0, 0.0};
@@ -52,7 +52,7 @@ TEST(Arrows, OfContactsAreNormalsAndForces) {
   }
 }
 
-TEST(Arrows, OfLargeCubesAreThinnedEvenly) {
+TEST(StateArrows, ThinLargeCubesEvenly) {
   ModelSettings settings = test::cube_on_plane(30, 1.0);
   const Model model = test::build(settings);
   const State state = initial_state(model, Precision::single);
@@ -64,7 +64,7 @@ TEST(Arrows, OfLargeCubesAreThinnedEvenly) {
   EXPECT_EQ(count(arrows_of(model, state, {.contacts = true}), ArrowKind::normal), 100u);
 }
 
-TEST(Arrows, OfBoxesAreThinnedAlikeInAllDirections) {
+TEST(StateArrows, ThinBoxesAlikeInAllDirections) {
   ModelSettings settings = test::cube_on_plane(2, 1.0);
   settings.cubes[0].particles = {30, 4, 7};
   const Model model = test::build(settings);
@@ -74,7 +74,7 @@ TEST(Arrows, OfBoxesAreThinnedAlikeInAllDirections) {
 }
 
 // Newton's second law: what rests has no net force, and no arrow of it.
-TEST(Arrows, OfTheNetForceOfABodyAtRestAreNone) {
+TEST(StateArrows, ShowNoNetForceOfABodyAtRest) {
   for (const Integrator method :
        {Integrator::explicit_euler, Integrator::implicit_euler, Integrator::runge_kutta_4}) {
     ModelSettings settings = test::cube_on_plane(5, 2.05);
@@ -93,7 +93,7 @@ TEST(Arrows, OfTheNetForceOfABodyAtRestAreNone) {
 }
 
 // A cube that falls turned has springs of their rest length but for rounding.
-TEST(Arrows, OfRoundingAloneAreNotEnlarged) {
+TEST(StateArrows, DoNotEnlargeRoundingErrors) {
   ModelSettings settings = test::cube_on_plane(6, 9.0);
   settings.cubes[0].rotation.angle = 33.0;
   settings.cubes[0].velocity = {0.0, -4.0, 0.0};
@@ -107,7 +107,7 @@ TEST(Arrows, OfRoundingAloneAreNotEnlarged) {
   EXPECT_GT(arrow_scale({}, arrows_of(model, state, {.springs = true})), 0.0);
 }
 
-TEST(Arrows, TheLegendSaysWhatALengthMeans) {
+TEST(StateArrows, HaveALegendOfTheirScale) {
   ViewSettings view;
   EXPECT_TRUE(arrow_legend(view, {}).empty());
   view.arrows.springs = true;

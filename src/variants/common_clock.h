@@ -21,15 +21,15 @@ struct Span {
   std::uint64_t last_step = 0;  ///< where it ends
 };
 
-/// Which state of each run a picture shows: that of its own step nearest to the picture's time, at most half
-/// of its time step away; in the last picture its last. The first run says when that is.
+/// The state of each run that a frame shows: the step nearest to the frame's time, at most half a time step
+/// away; in the last frame the last step. The first run determines the number of frames.
 class CommonClock {
  public:
   /// At least one run, each from step 0. fps and speed as of FrameSchedule.
   CommonClock(std::vector<Span> runs, double fps, double speed);
-  /// Pictures in all, ≥ 1.
+  /// Number of frames, ≥ 1.
   std::uint64_t count() const { return count_; }
-  /// The step of run `run` in picture `frame` < count(); never decreases.
+  /// The step of run `run` in frame `frame` < count(); never decreases.
   std::uint64_t step_of(std::size_t run, std::uint64_t frame) const;
 
  private:

@@ -6,9 +6,9 @@
 #include "aspic/version.h"
 #include "base/fnv.h"
 #include "model/counts.h"
-#include "run/run_length.h"
-#include "run/variant.h"
 #include "scene/short_keys.h"
+#include "variants/run_length.h"
+#include "variants/variant.h"
 
 namespace aspic {
 namespace {

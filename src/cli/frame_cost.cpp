@@ -1,4 +1,4 @@
-#include "run/picture_cost.h"
+#include "cli/frame_cost.h"
 
 #include <glad/gl.h>
 
@@ -13,10 +13,10 @@
 #include "render/overlay_text.h"
 #include "render/picture_passes.h"
 #include "render/renderer.h"
-#include "run/run_length.h"
 #include "run/window_host.h"
+#include "variants/run_length.h"
 
-namespace aspic {
+namespace aspic::cli {
 namespace {
 
 /// Time since it was made.
@@ -25,14 +25,12 @@ class Stopwatch {
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  double processor_seconds() const {
-    return static_cast<double>(std::clock() - processor_start_) / CLOCKS_PER_SEC;
-  }
-  gl::PassTime pass(const char* name) const { return {name, 1e3 * seconds(), 1, 1e3 * processor_seconds()}; }
+  double cpu_seconds() const { return static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC; }
+  gl::PassTime pass(const char* name) const { return {name, 1e3 * seconds(), 1, 1e3 * cpu_seconds()}; }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::clock_t processor_start_ = std::clock();
+  std::clock_t cpu_start_ = std::clock();
 };
 
 /// Sums of passes by name, in the order in which each came first.
@@ -46,12 +44,12 @@ void add(std::vector<gl::PassTime>& sums, const std::vector<gl::PassTime>& passe
   }
 }
 
-/// Draws as a recording does, and waits for each picture.
-class PictureCostMeter {
+/// Renders as a recording does, and waits for each frame.
+class FrameCostMeter {
  public:
-  static Result<PictureCostMeter> create(const Scene& scene, const BackendChoice& choice,
-                                         const SharedModel& model, const PictureSize& size) {
-    PictureCostMeter m(scene, size);
+  static Result<FrameCostMeter> create(const Scene& scene, const BackendChoice& choice,
+                                       const SharedModel& model, const PictureSize& size) {
+    FrameCostMeter m(scene, size);
     ASPIC_TRY(m.backend_, make_backend(choice, model));
     m.context_ = context_of(m.backend_);
     if (!m.context_) {
@@ -59,7 +57,7 @@ class PictureCostMeter {
       m.context_ = m.own_context_.get();
     }
     RendererOptions look;
-    ASPIC_TRY(const auto directory, shader_directory());
+    ASPIC_TRY(const auto directory, gl::shader_directory());
     look.shaders = gl::ShaderLibrary(directory);
     ASPIC_TRY(m.renderer_, Renderer::create(*m.context_, look));
     ASPIC_CHECK(m.renderer_->set_model(*model));
@@ -71,15 +69,15 @@ class PictureCostMeter {
   Solver& solver() { return *backend_.solver; }
   const std::string& device() const { return context_->info().renderer; }
 
-  /// Adds a picture of the solver's state to the cost.
-  Status picture(PictureCost& cost) {
+  /// Adds a frame of the solver's state to the cost.
+  Status frame(FrameCost& cost) {
     const Stopwatch watch;
     ASPIC_TRY(const auto state, on_device());
     ASPIC_CHECK(draw(state));
     ring_->submit(renderer_->picture());
     ASPIC_CHECK(ring_->take(pixels_));
     cost.seconds.push_back(watch.seconds());
-    cost.processor_seconds.push_back(watch.processor_seconds());
+    cost.cpu_seconds.push_back(watch.cpu_seconds());
     return {};
   }
 
@@ -92,7 +90,7 @@ class PictureCostMeter {
     std::vector<gl::PassTime> all = {uploading.pass("state to the device")};
     renderer_->set_profiling(true);
     ASPIC_CHECK(draw(state));
-    glFinish();  // so that the device's stamps are there
+    glFinish();  // completes the device's timestamps
     const std::vector<gl::PassTime> drawn = renderer_->pass_times();
     renderer_->set_profiling(false);
     if (drawn.empty()) return fail(ErrorCode::no_device, "{} gives no times of passes.", device());
@@ -106,7 +104,7 @@ class PictureCostMeter {
   }
 
  private:
-  PictureCostMeter(const Scene& scene, const PictureSize& size) : scene_(&scene), size_(size) {}
+  FrameCostMeter(const Scene& scene, const PictureSize& size) : scene_(&scene), size_(size) {}
 
   Result<DeviceState> on_device() {
     if (const GpuSolver* const gpu = gpu_of(backend_)) return gpu->device_state();
@@ -114,11 +112,11 @@ class PictureCostMeter {
     return renderer_->upload(state);
   }
   Status draw(const DeviceState& state) {
-    PictureOptions picture;
-    picture.view = scene_->view;
+    PictureOptions options;
+    options.view = scene_->view;
     const double h = backend_.solver->model().simulation.timestep;
-    picture.text = overlay_lines(*scene_, static_cast<double>(state.step) * h);
-    return renderer_->draw(size_.width, size_.height, state, picture);
+    options.text = overlay_lines(*scene_, static_cast<double>(state.step) * h);
+    return renderer_->draw(size_.width, size_.height, state, options);
   }
 
   const Scene* scene_;
@@ -133,17 +131,16 @@ class PictureCostMeter {
 
 }  // namespace
 
-Result<PictureCost> measure_pictures(const Scene& scene, const BackendChoice& choice,
-                                     const PictureCostOptions& options,
-                                     const std::function<bool()>& interrupted) {
+Result<FrameCost> measure_frames(const Scene& scene, const BackendChoice& choice,
+                                 const FrameCostOptions& options, const std::function<bool()>& interrupted) {
   ASPIC_TRY(auto built, build_model(scene.model));
   const SharedModel shared_model = shared(std::move(built));
   const Model& model = *shared_model;
-  ASPIC_TRY(auto meter, PictureCostMeter::create(scene, choice, shared_model, options.size));
+  ASPIC_TRY(auto meter, FrameCostMeter::create(scene, choice, shared_model, options.size));
   Solver& solver = meter.solver();
   ASPIC_TRY(const auto last, steps_of({std::nullopt, options.duration}, model.simulation));
   const FrameSchedule schedule(model.simulation.timestep, 0, last, 60.0, 1.0);
-  PictureCost cost;
+  FrameCost cost;
   cost.device = meter.device();
   std::uint64_t by_pass = 0;
   for (int repeat = -options.warm_up; repeat < options.repeats; ++repeat) {
@@ -160,7 +157,7 @@ Result<PictureCost> measure_pictures(const Scene& scene, const BackendChoice& ch
         return fail(ErrorCode::diverged, "the scene diverged in step {}.", advanced.divergence->step);
       step = schedule.step_of(frame);
       if (frame % 2 == 0) {
-        ASPIC_CHECK(meter.picture(cost));
+        ASPIC_CHECK(meter.frame(cost));
       } else {
         ASPIC_CHECK(meter.passes(cost.passes));
         ++by_pass;
@@ -175,4 +172,4 @@ Result<PictureCost> measure_pictures(const Scene& scene, const BackendChoice& ch
   return cost;
 }
 
-}  // namespace aspic
+}  // namespace aspic::cli

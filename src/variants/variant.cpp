@@ -1,4 +1,4 @@
-#include "run/variant.h"
+#include "variants/variant.h"
 
 #include <fmt/format.h>
 

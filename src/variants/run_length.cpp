@@ -1,4 +1,4 @@
-#include "run/run_length.h"
+#include "variants/run_length.h"
 
 #include <cmath>
 

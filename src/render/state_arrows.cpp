@@ -1,4 +1,4 @@
-#include "run/arrows.h"
+#include "render/state_arrows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t most_along = 12, most_of_body = 1000;
 /// Length of the longest arrow, in distances between those that are drawn.
-constexpr double longest = 3.0;
+constexpr double longest_arrow = 3.0;
 /// Relative error of positions and velocities in single precision after many steps.
 constexpr double rounding = 64.0 * std::numeric_limits<float>::epsilon();
 
@@ -86,11 +86,11 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
   std::vector<Thinning> bodies(model.bodies.begin(), model.bodies.end());
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (model.bodies[b].box()) stride = std::max(stride, bodies[b].stride());
-  set.room = longest * (spacing > 0.0 ? spacing : 1.0) * stride;
+  set.room = longest_arrow * (spacing > 0.0 ? spacing : 1.0) * stride;
   set.noise = noise_of(model, state);
   const SpringFinder springs(model);
-  BodyContactForces bodies_touched(model);
-  if (wanted.contacts || wanted.net) bodies_touched.find(springs, state, inputs);
+  BodyContactForces body_contacts(model);
+  if (wanted.contacts || wanted.net) body_contacts.find(springs, state, inputs);
   const auto add = [&](bool shown, std::uint32_t particle, const Vec3& value, ArrowKind kind) {
     if (shown) set.arrows.push_back({state.position[particle], value, kind});
   };
@@ -98,7 +98,7 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
     const Body& body = model.bodies[b];
     for (std::uint32_t i = body.first_particle; i < body.first_particle + body.particle_count; ++i) {
       if (!(wanted.springs || wanted.external || wanted.net) || !bodies[b].shows(i, false)) continue;
-      const ParticleForce f = particle_force(model, springs, state, i, inputs, &bodies_touched);
+      const ParticleForce f = particle_force(model, springs, state, i, inputs, &body_contacts);
       add(wanted.springs, i, f.springs, ArrowKind::springs);
       add(wanted.external, i, external_force(f), ArrowKind::external);
       add(wanted.net, i, f.net, ArrowKind::net);
@@ -106,7 +106,7 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
   }
   if (!wanted.contacts) return set;
   std::size_t b = 0;
-  for (const ParticleContact& c : contacts_of(model, springs, state, inputs, &bodies_touched)) {
+  for (const ParticleContact& c : contacts_of(model, springs, state, inputs, &body_contacts)) {
     while (b < bodies.size() && c.particle - model.bodies[b].first_particle >= model.bodies[b].particle_count)
       ++b;
     if (b < bodies.size() && !bodies[b].shows(c.particle, true)) continue;

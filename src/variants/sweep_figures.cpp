@@ -1,4 +1,4 @@
-#include "run/sweep_figures.h"
+#include "variants/sweep_figures.h"
 
 #include <cmath>
 #include <utility>

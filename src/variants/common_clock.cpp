@@ -1,9 +1,9 @@
-#include "run/common_clock.h"
+#include "variants/common_clock.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "run/run_length.h"
+#include "variants/run_length.h"
 
 namespace aspic {
 

@@ -1,4 +1,4 @@
-#include "run/picture_painter.h"
+#include "render/frame_painter.h"
 
 #include <algorithm>
 #include <cassert>
@@ -16,17 +16,17 @@ Result<DeviceState> upload(Renderer& renderer, Solver& solver) {
   return renderer.upload(std::move(particles), std::move(balls), step);
 }
 
-Result<std::unique_ptr<PicturePainter>> PicturePainter::create(gl::Context& context, const PictureSize& size,
-                                                               const std::vector<PaintedRun>& runs) {
+Result<std::unique_ptr<FramePainter>> FramePainter::create(gl::Context& context, const PictureSize& size,
+                                                           const std::vector<RenderedRun>& runs) {
   const gl::Current here(context);
   ASPIC_CHECK(here.status());
-  std::unique_ptr<PicturePainter> p(new PicturePainter());
+  std::unique_ptr<FramePainter> p(new FramePainter());
   p->context_ = &context;
   p->size_ = size;
-  ASPIC_TRY(const auto directory, shader_directory());
+  ASPIC_TRY(const auto directory, gl::shader_directory());
   RendererOptions look;
   look.shaders = gl::ShaderLibrary(directory);
-  for (const PaintedRun& run : runs) {
+  for (const RenderedRun& run : runs) {
     Part part{run, nullptr};
     ASPIC_TRY(part.renderer, Renderer::create(context, look));
     ASPIC_CHECK(part.renderer->set_model(*part.run.model));
@@ -38,54 +38,54 @@ Result<std::unique_ptr<PicturePainter>> PicturePainter::create(gl::Context& cont
   return p;
 }
 
-const gl::Framebuffer& PicturePainter::picture() const {
-  return parts_.size() == 1 ? parts_.front().renderer->picture() : together_->picture();
+const gl::Framebuffer& FramePainter::frame() const {
+  return parts_.size() == 1 ? parts_.front().renderer->picture() : together_->frame();
 }
 
-Status PicturePainter::draw(const std::vector<DeviceState>& states, const std::vector<ShownRun>& shown) {
-  assert(states.size() == parts_.size() && shown.size() == parts_.size());
+Status FramePainter::draw(const std::vector<DeviceState>& states, const std::vector<RunView>& views) {
+  assert(states.size() == parts_.size() && views.size() == parts_.size());
   const gl::Current here(*context_);
   ASPIC_CHECK(here.status());
   if (!together_)
-    return draw_part(parts_.front(), size_.width, size_.height, states.front(), shown.front(), std::nullopt);
+    return draw_part(parts_.front(), size_.width, size_.height, states.front(), views.front(), std::nullopt);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (part.step == states[i].step) continue;
-    ASPIC_TRY(part.own_range, part.renderer->range_of(states[i], part.run.scene->view, shown[i].channels));
+    ASPIC_TRY(part.own_range, part.renderer->range_of(states[i], part.run.scene->view, views[i].channels));
     part.step = states[i].step;
     part.drawn_range.reset();
   }
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
-    // The widest range of all that share a part's scale: only so can colours be compared.
+    // The widest range of all that share a part's scale, so that colours can be compared.
     QuantityRange range = part.own_range;
     for (const Part& other : parts_)
       if (share_scale(part.run.scene->view, other.run.scene->view)) range = widest(range, other.own_range);
-    if (part.drawn_range == range && part.drawn_text == shown[i].text) continue;
+    if (part.drawn_range == range && part.drawn_text == views[i].text) continue;
     const Tile& tile = together_->tiles()[i];
-    ASPIC_CHECK(draw_part(part, tile.width, tile.height, states[i], shown[i], range));
-    together_->place(i, part.renderer->picture(), shown[i].framed);
+    ASPIC_CHECK(draw_part(part, tile.width, tile.height, states[i], views[i], range));
+    together_->place(i, part.renderer->picture(), views[i].framed);
     part.drawn_range = range;
-    part.drawn_text = shown[i].text;
+    part.drawn_text = views[i].text;
   }
   return {};
 }
 
-Status PicturePainter::draw_part(Part& part, int width, int height, const DeviceState& state,
-                                 const ShownRun& shown, const std::optional<QuantityRange>& range) {
+Status FramePainter::draw_part(Part& part, int width, int height, const DeviceState& state,
+                               const RunView& view, const std::optional<QuantityRange>& range) {
   PictureOptions options;
   options.view = part.run.scene->view;
-  options.view.camera = shown.camera;
+  options.view.camera = view.camera;
   options.steady =
       !options.view.follow &&
       std::ranges::none_of(part.run.model->terrain, [](const Terrain& t) { return t.motion.has_value(); });
-  options.text = shown.text;
-  options.text_height = shown.text_height;
-  options.legend = shown.legend;
-  options.tint = shown.tint;
-  options.arrows = shown.arrows;
-  options.ball_turns = shown.ball_turns;
-  options.channels = shown.channels;
+  options.text = view.text;
+  options.text_height = view.text_height;
+  options.legend = view.legend;
+  options.tint = view.tint;
+  options.arrows = view.arrows;
+  options.ball_turns = view.ball_turns;
+  options.channels = view.channels;
   options.range = range;
   return part.renderer->draw(width, height, state, options);
 }

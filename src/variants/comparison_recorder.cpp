@@ -1,52 +1,52 @@
-#include "run/comparison_recorder.h"
+#include "variants/comparison_recorder.h"
 
 #include <utility>
 
 #include "model/reading.h"
 #include "render/camera.h"
-#include "run/arrows.h"
-#include "run/shown_run.h"
+#include "render/run_view.h"
+#include "render/state_arrows.h"
 #include "run/window_host.h"
 
 namespace aspic {
 
 Result<std::unique_ptr<ComparisonRecorder>> ComparisonRecorder::create(
-    gl::Context& context, const PictureOutput& output, std::vector<PicturedRun> runs,
+    gl::Context& context, const PictureOutput& output, std::vector<RecordedRun> runs,
     std::vector<std::unique_ptr<FrameSink>> sinks) {
   std::unique_ptr<ComparisonRecorder> r(new ComparisonRecorder());
   r->output_ = output;
   const std::vector<Tile> tiles = tiles_of(output.size, runs.size());
-  std::vector<PaintedRun> painted;
+  std::vector<RenderedRun> rendered;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Part part = {runs[i], i, tiles[i]};
     const Solver& solver = *part.run.backend->solver;
     part.following = Following(*part.run.scene, solver.model(), solver.precision());
-    painted.push_back({part.run.scene, &solver.model()});
+    rendered.push_back({part.run.scene, &solver.model()});
     r->parts_.push_back(std::move(part));
   }
-  ASPIC_TRY(r->film_, FilmPainter::create(context, output, std::move(painted), std::move(sinks)));
+  ASPIC_TRY(r->video_, VideoPainter::create(context, output, std::move(rendered), std::move(sinks)));
   return r;
 }
 
 FrameTimes ComparisonRecorder::times() const {
-  FrameTimes times = film_->times();
+  FrameTimes times = video_->times();
   times.simulate = simulate_seconds_;
   return times;
 }
 
 Status ComparisonRecorder::add(const std::vector<std::uint64_t>& steps,
                                const std::vector<std::optional<Divergence>>& divergences) {
-  std::vector<PaintedState> states;
-  std::vector<ShownRun> all;
+  std::vector<RenderedState> states;
+  std::vector<RunView> all;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     ASPIC_CHECK(take_state(part, steps[i]));
     const Backend& backend = *part.run.backend;
     const GpuSolver* const gpu = gpu_of(backend);
     states.push_back({backend.solver.get(), gpu ? gpu->device_state() : DeviceState()});
-    all.push_back(shown(part, divergences[i]));
+    all.push_back(view_of(part, divergences[i]));
   }
-  return film_->add(states, std::move(all), 1);
+  return video_->add(states, std::move(all), 1);
 }
 
 /// A copy of the state of a part's run, where one is needed.
@@ -58,11 +58,11 @@ Status ComparisonRecorder::take_state(Part& part, std::uint64_t step) {
   return {};
 }
 
-ShownRun ComparisonRecorder::shown(const Part& part, const std::optional<Divergence>& divergence) const {
+RunView ComparisonRecorder::view_of(const Part& part, const std::optional<Divergence>& divergence) const {
   const Model& model = part.run.backend->solver->model();
   const double timestep = model.simulation.timestep;
   const ViewSettings& view = part.run.scene->view;
-  ShownRun shown;
+  RunView shown;
   shown.camera =
       fitted(moved(view.camera, part.following.offset(model, part.copy)), part.tile.width, part.tile.height);
   // One legend for all that share a scale.
@@ -85,7 +85,7 @@ ShownRun ComparisonRecorder::shown(const Part& part, const std::optional<Diverge
 }
 
 Status ComparisonRecorder::finish() {
-  return film_->finish();
+  return video_->finish();
 }
 
 }  // namespace aspic
