@@ -19,7 +19,7 @@ struct Meter::Parts {
   std::optional<Contact> contact;  // from the first state on, where bodies touch
 
   /// The elastic energy of contacts between bodies [J].
-  double push_energy(const State& state) {
+  double contact_energy(const State& state) {
     if (!contact) contact.emplace(model);
     const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
     const Contact::Particles at = {physics::components(x.data()), physics::components(v.data()), 3};
@@ -78,7 +78,7 @@ Measures Meter::measure(const State& state, const Inputs& inputs) {
     m.elastic += physics::spring_energy(classes[spring.spring_class],
                                         length(state.position[spring.a] - state.position[spring.b]));
   if (has_body_contact(model)) {
-    m.contact = parts_->push_energy(state);
+    m.contact = parts_->contact_energy(state);
     m.elastic += *m.contact;
   }
   return m;

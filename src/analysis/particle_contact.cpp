@@ -21,14 +21,14 @@ std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder&
   std::vector<Ground<double>> grounds(model.terrain.begin(), model.terrain.end());
   for (Ground<double>& ground : grounds) ground.begin_step(model.simulation.timestep, state.step);
   std::vector<ParticleContact> contacts;
-  const std::span<const BodyContactForce> touched =
+  const std::span<const BodyContactForce> body_contacts =
       bodies ? bodies->forces() : std::span<const BodyContactForce>();
-  auto next = touched.begin();
+  auto next = body_contacts.begin();
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
     const double w = inverse_mass_of(model, inputs, i);
-    while (next != touched.end() && next->particle < i) ++next;
+    while (next != body_contacts.end() && next->particle < i) ++next;
     if (w == 0.0) continue;
-    if (next != touched.end() && next->particle == i)
+    if (next != body_contacts.end() && next->particle == i)
       contacts.push_back({i, ParticleContact::of_bodies, next->normal, next->force});
     const Vector x = physics::rounded<double>(state.position[i]);
     std::optional<Vector> f;

@@ -33,8 +33,8 @@ void row(const char* name, const Vec3& v, const char* unit, bool components) {
   }
 }
 
-/// Whether a terrain is so near that the particle may feel it.
-bool touches(const PlaybackSession& simulation, const Vec3& x) {
+/// Whether a particle may be in contact with terrain.
+bool in_contact(const PlaybackSession& simulation, const Vec3& x) {
   const Model& model = simulation.model();
   return std::ranges::any_of(model.terrain, [&](const Terrain& t) {
     const Terrain now = terrain_at(t, model.simulation.timestep, simulation.snapshot().step);
@@ -74,7 +74,7 @@ Box particle_readout(const Gui& gui, const PlaybackSession& simulation, const Ho
   if (ImGui::BeginTable("values", components ? 6 : 3, ImGuiTableFlags_SizingFixedFit)) {
     row("v", h.velocity, "m/s", components);
     if (h.ball) row("ω", h.angular_velocity, "rad/s", components);
-    // What a ball touches acts on it by impulses.
+    // Contacts act on a ball by impulses.
     row(h.ball && !h.contact.empty() ? "f without contact" : "f", f.net, "N", components);
     for (const ForceRow& part : force_rows)
       if (f.*part.force != Vec3{})
@@ -84,7 +84,7 @@ Box particle_readout(const Gui& gui, const PlaybackSession& simulation, const Ho
   if (h.ball)
     ImGui::TextDisabled("%s", h.contact.empty() ? "touches nothing" : h.contact.c_str());
   else if (simulation.model().contact.model == ContactModel::coulomb && !h.pinned && f.contact == Vec3{} &&
-           touches(simulation, h.position))
+           in_contact(simulation, h.position))
     ImGui::TextDisabled("A bounce acts on v at the end of a step: no part of f.");
   ImGui::EndGroup();
   gui.mark("particle");

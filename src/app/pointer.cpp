@@ -17,8 +17,8 @@ namespace {
 /// Two presses are one double click if they come this close [s, window units].
 constexpr double double_click_time = 0.400, double_click_reach = 4.0;
 
-/// What a ball touches: terrain by name, other balls and particles by number.
-std::string touched_by(const Model& model, const State& state, std::uint32_t b) {
+/// Contacts of a ball: terrain by name, other balls and particles by number.
+std::string contacts_of_ball(const Model& model, const State& state, std::uint32_t b) {
   const Ball& ball = model.balls[b];
   if (!ball.launched(state.step)) return "waits for its launch";
   const Vec3 x = state.ball_position[b];
@@ -96,15 +96,15 @@ void Pointer::describe(std::uint32_t particle) {
   const State& state = simulation_.snapshot();
   if (!incident_ || incident_model_ != simulation_.present().model_number()) {
     incident_.emplace(model);
-    touching_ = std::make_unique<BodyContactForces>(model);
+    body_contacts_ = std::make_unique<BodyContactForces>(model);
     incident_model_ = simulation_.present().model_number();
   }
   Hovered h;
   h.particle = particle;
   h.position = state.position[particle];
   h.velocity = state.velocity[particle];
-  touching_->find(*incident_, state, simulation_.inputs());
-  h.force = particle_force(model, *incident_, state, particle, simulation_.inputs(), touching_.get());
+  body_contacts_->find(*incident_, state, simulation_.inputs());
+  h.force = particle_force(model, *incident_, state, particle, simulation_.inputs(), body_contacts_.get());
   h.mass = model.mass[particle];
   h.pinned = inverse_mass_of(model, simulation_.inputs(), particle) == 0.0;
   hovered_ = std::move(h);
@@ -123,7 +123,7 @@ void Pointer::describe_ball(std::uint32_t b) {
   h.force = ball_force(model, state, b, simulation_.inputs());
   h.mass = ball.mass;
   h.radius = ball.radius;
-  h.contact = touched_by(model, state, b);
+  h.contact = contacts_of_ball(model, state, b);
   hovered_ = std::move(h);
 }
 

@@ -26,7 +26,7 @@ struct Hovered {
   bool ball = false;
   double radius = 0.0;    ///< of a ball [m]
   Vec3 angular_velocity;  ///< of a ball [rad/s]
-  std::string contact;    ///< what a ball touches, in words; empty: nothing
+  std::string contact;    ///< contacts of a ball, in words; empty: none
 };
 
 /// `on_panel`: a panel is under the mouse and takes the event.
@@ -81,8 +81,8 @@ class Pointer {
   double pressed_time_ = -1e9, pressed_x_ = 0.0, pressed_y_ = 0.0;  // the last press that was no double one
   std::optional<Hovered> hovered_;
   std::optional<Question> asked_;
-  std::optional<SpringFinder> incident_;         // of the model with that number
-  std::unique_ptr<BodyContactForces> touching_;  // likewise
+  std::optional<SpringFinder> incident_;              // of the model with that number
+  std::unique_ptr<BodyContactForces> body_contacts_;  // likewise
   std::uint64_t incident_model_ = 0;
 };
 

@@ -258,7 +258,7 @@ Status execute(const SceneCheckOptions& options) {
   const Integrator own = model.simulation.integrator;
   const double timestep = model.simulation.timestep;
   std::vector<StabilityLimit> limits;
-  const ContactFacts touching = contact_facts(model);
+  const ContactFacts contacts = contact_facts(model);
   ContactLimits contact_steps;
   {
     ProgressBar bar(100, "stable steps: part");
@@ -267,11 +267,11 @@ Status execute(const SceneCheckOptions& options) {
       return !interrupt.interrupted();
     };
     limits = stability_limits(model, explicit_integrators, StabilityEffort::thorough, watch);
-    if (!touching.pairings.empty()) {
-      const auto while_touching = [&](Meeting meeting) {
+    if (!contacts.pairings.empty()) {
+      const auto steps_in_contact = [&](Meeting meeting) {
         return contact_limits(model, explicit_integrators, meeting, StabilityEffort::thorough, watch);
       };
-      contact_steps = {while_touching(Meeting::faces), while_touching(Meeting::edges)};
+      contact_steps = {steps_in_contact(Meeting::faces), steps_in_contact(Meeting::edges)};
     }
   }
   if (interrupt.interrupted())
@@ -311,7 +311,7 @@ Status execute(const SceneCheckOptions& options) {
                                     {"integrator", name_of(own)},
                                     {"timestep", timestep},
                                     {"stable_steps", steps},
-                                    {"contact", contact_json(scene, model, touching, contact_steps)},
+                                    {"contact", contact_json(scene, model, contacts, contact_steps)},
                                     {"materials", materials_json(scene.model)},
                                     {"diagnostics", to_json(found)},
                                     {"largest_cubes", capacity ? largest : Json()}})));
@@ -349,7 +349,7 @@ Status execute(const SceneCheckOptions& options) {
     }
     text += fmt::format("time step    {:<24} {:>8} s\n", name_of(own), timestep);
     text += materials_text(scene.model);
-    text += contact_text(scene, model, touching);
+    text += contact_text(scene, model, contacts);
     ASPIC_CHECK(print_text(text));
   }
   const auto at = std::find(explicit_integrators.begin(), explicit_integrators.end(), own);
@@ -361,7 +361,7 @@ Status execute(const SceneCheckOptions& options) {
   }
   for (const std::string& note : idle_keys(scene.model)) print_message(note);
   for (const Diagnostic& each : found) print_warning(each.sentence());
-  for (const std::string& warning : contact_warnings(model, touching, contact_steps)) print_warning(warning);
+  for (const std::string& warning : contact_warnings(model, contacts, contact_steps)) print_warning(warning);
   return {};
 }
 

@@ -9,14 +9,14 @@ namespace aspic {
 namespace {
 
 /// k of the springs between neighbours, and the least of their rest lengths.
-void take_springs(const Model& model, const Body& body, ContactBody& touch) {
-  touch.spacing = std::numeric_limits<double>::infinity();
+void take_springs(const Model& model, const Body& body, ContactBody& contact) {
+  contact.spacing = std::numeric_limits<double>::infinity();
   for (std::uint32_t c = body.first_class; c < body.first_class + body.class_count; ++c) {
     const SpringClass& springs = model.spring_classes[c];
-    if (springs.type != SpringType::structural || springs.rest_length >= touch.spacing) continue;
-    touch.spacing = springs.rest_length;
-    touch.stiffness = lattice_stiffness_share * springs.stiffness;
-    touch.damping = springs.damping;
+    if (springs.type != SpringType::structural || springs.rest_length >= contact.spacing) continue;
+    contact.spacing = springs.rest_length;
+    contact.stiffness = lattice_stiffness_share * springs.stiffness;
+    contact.damping = springs.damping;
   }
 }
 
@@ -57,25 +57,25 @@ std::vector<std::uint32_t> particles_of(const QuadMesh& mesh) {
   return particles;
 }
 
-void append_points(ContactSurfaces& all, ContactBody& touch, const QuadMesh& mesh) {
+void append_points(ContactSurfaces& all, ContactBody& contact, const QuadMesh& mesh) {
   const std::vector<std::uint32_t> particles = particles_of(mesh);
   const auto point_of = [&](std::uint32_t particle) {
-    return touch.first_point +
+    return contact.first_point +
            static_cast<std::uint32_t>(std::ranges::lower_bound(particles, particle) - particles.begin());
   };
-  touch.first_point = static_cast<std::uint32_t>(all.points.size());
-  touch.surface_particles = static_cast<std::uint32_t>(particles.size());
+  contact.first_point = static_cast<std::uint32_t>(all.points.size());
+  contact.surface_particles = static_cast<std::uint32_t>(particles.size());
   for (const std::uint32_t p : particles)
     all.points.push_back({{p, p}, {point_of(p), point_of(p)}, {1.0, 0.0}});
   constexpr double parts = points_on_edge + 1;
-  for (const auto& [a, b] : sharp_edges(mesh, touch.closed))
+  for (const auto& [a, b] : sharp_edges(mesh, contact.closed))
     for (int j = 1; j <= points_on_edge; ++j)
       all.points.push_back({{a, b}, {point_of(a), point_of(b)}, {1.0 - j / parts, j / parts}});
-  touch.point_count = static_cast<std::uint32_t>(all.points.size()) - touch.first_point;
+  contact.point_count = static_cast<std::uint32_t>(all.points.size()) - contact.first_point;
 }
 
-void append_triangles(ContactSurfaces& all, ContactBody& touch, const QuadMesh& mesh) {
-  touch.first_triangle = static_cast<std::uint32_t>(all.triangles.size());
+void append_triangles(ContactSurfaces& all, ContactBody& contact, const QuadMesh& mesh) {
+  contact.first_triangle = static_cast<std::uint32_t>(all.triangles.size());
   std::uint32_t side = 0;
   mesh.for_each_group([&](const NormalGroup&, std::span<const Quad> quads) {
     for (const Quad& q : quads) {
@@ -84,7 +84,7 @@ void append_triangles(ContactSurfaces& all, ContactBody& touch, const QuadMesh& 
     }
     ++side;
   });
-  touch.triangle_count = static_cast<std::uint32_t>(all.triangles.size()) - touch.first_triangle;
+  contact.triangle_count = static_cast<std::uint32_t>(all.triangles.size()) - contact.first_triangle;
 }
 
 /// Fills in from and at_particle: triangles by particle, then by number.
@@ -117,7 +117,7 @@ bool has_surface(const Body& body) {
 }
 
 /// The surface of a body, or the meshes of a net.
-QuadMesh touched_mesh(const Body& body) {
+QuadMesh contact_mesh(const Body& body) {
   return body.style == SurfaceStyle::cords ? body.listed_surface : surface_of(body);
 }
 
@@ -137,16 +137,16 @@ ContactSurfaces contact_surfaces(const Model& model) {
   ContactSurfaces all;
   for (const Body& body : model.bodies) {
     if (!has_surface(body)) continue;
-    const QuadMesh mesh = touched_mesh(body);
-    ContactBody touch;
-    touch.body = static_cast<std::uint32_t>(&body - model.bodies.data());
-    touch.closed = body.style == SurfaceStyle::flesh;
-    touch.mass = model.mass[body.first_particle];
-    touch.friction = body.friction.value_or(model.contact.body_friction);
-    take_springs(model, body, touch);
-    append_points(all, touch, mesh);
-    append_triangles(all, touch, mesh);
-    all.bodies.push_back(touch);
+    const QuadMesh mesh = contact_mesh(body);
+    ContactBody contact;
+    contact.body = static_cast<std::uint32_t>(&body - model.bodies.data());
+    contact.closed = body.style == SurfaceStyle::flesh;
+    contact.mass = model.mass[body.first_particle];
+    contact.friction = body.friction.value_or(model.contact.body_friction);
+    take_springs(model, body, contact);
+    append_points(all, contact, mesh);
+    append_triangles(all, contact, mesh);
+    all.bodies.push_back(contact);
   }
   list_triangles_at(all);
   name_corners(all, model.particle_count());

@@ -182,8 +182,8 @@ class StartCheck {
          "Slower, stiffer or lighter bodies take their shape again",
          [&](const Extent& extent) -> std::optional<std::string> {
            const Body& body = model_.bodies[extent.body];
-           const auto touch = std::ranges::find(surfaces.bodies, extent.body, &ContactBody::body);
-           if (touch == surfaces.bodies.end() || !touch->closed || !body.lattice || extent.pinned)
+           const auto contact = std::ranges::find(surfaces.bodies, extent.body, &ContactBody::body);
+           if (contact == surfaces.bodies.end() || !contact->closed || !body.lattice || extent.pinned)
              return std::nullopt;
            Vec3 sum;
            for (std::uint32_t i = body.first_particle; i < body.first_particle + body.particle_count; ++i) {
@@ -193,7 +193,7 @@ class StartCheck {
            double drop = std::numeric_limits<double>::infinity();
            for (const Terrain& terrain : terrain_) drop = std::min(drop, signed_distance(terrain, middle));
            const double speed = std::sqrt(extent.speed * extent.speed + 2.0 * g * std::max(drop, 0.0));
-           const double sound = touch->spacing * std::sqrt(touch->stiffness / touch->mass);
+           const double sound = contact->spacing * std::sqrt(contact->stiffness / contact->mass);
            if (!(speed > 1.1 * sound)) return std::nullopt;
            return fmt::format(" may come at {:.3g} m/s, its speed of sound is {:.3g} m/s", speed, sound);
          });

@@ -57,7 +57,7 @@ Result<Finding> rests(const Subject& subject, Integrator integrator) {
   ASPIC_TRY(auto fine, rested(subject, model, Precision::double_));
   ASPIC_TRY(auto other, rested(subject, usual, Precision::double_));
   const double v_single = measure(model, single.end).max_speed, v_double = measure(model, fine.end).max_speed;
-  const ContactSample at = touching_in(model, fine.end), as = touching_in(usual, other.end);
+  const ContactSample at = sample_contacts(model, fine.end), as = sample_contacts(usual, other.end);
   const double off = std::max(std::abs(at.least - as.least), std::abs(at.greatest - as.greatest));
   return Finding{v_single <= rest_single && v_double <= rest_double && fine.drift < 1e-6 &&
                      at.least >= 0.09 && at.greatest <= 0.10 && off <= 1e-4,

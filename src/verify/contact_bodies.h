@@ -31,6 +31,6 @@ struct ContactSample {
   double least = 1.0, greatest = -1.0;  ///< distances among them, in spacings
   double first_step = 0.0;  ///< Σ ½k·(h·u)², the energy that a first step in contact may bring [J]
 };
-ContactSample touching_in(const Model& model, const State& state);
+ContactSample sample_contacts(const Model& model, const State& state);
 
 }  // namespace aspic::verify

@@ -11,7 +11,7 @@
 
 namespace aspic::verify {
 
-ContactSample touching_in(const Model& model, const State& state) {
+ContactSample sample_contacts(const Model& model, const State& state) {
   using Contact = reference::BodyContact<double>;
   using Vector = physics::Vector<double>;
   Contact search(model);
@@ -75,7 +75,7 @@ Result<Impact> meet(const Subject& subject, Placement how, double v, Integrator 
   const auto steps = static_cast<int>((3 * side / v + 0.3) / model.simulation.timestep);
   for (int n = 0; n < steps; n += 20) {
     ASPIC_TRY(end, run(*solver, 20));
-    result.apart = touching_in(model, end).count == 0;
+    result.apart = sample_contacts(model, end).count == 0;
     if (result.apart)
       result.gained = std::max(result.gained, measure(model, end).total() / before.total() - 1.0);
   }
@@ -129,7 +129,7 @@ Result<Finding> drops(const Subject& subject, Integrator integrator) {
   for (std::uint64_t n = 5; n <= steps_of(model, 2.0); n += 5) {
     ASPIC_TRY(const State at, run(*solver, 5));
     const double over = measure(model, at).total() - before;
-    const double allowed = touching_in(model, at).first_step + static_cast<double>(n) * own;
+    const double allowed = sample_contacts(model, at).first_step + static_cast<double>(n) * own;
     most = std::max(most, over);
     worst = std::max(worst, over - allowed - 4096 * epsilon_double * std::abs(before));
   }
@@ -148,7 +148,7 @@ Result<Finding> default_cubes(const Subject& subject, Integrator integrator) {
   ASPIC_TRY(auto model, build_model(settings));
   ASPIC_TRY(auto end, run_reference(subject, model, Precision::single, steps_of(model, 10.0)));
   const double speed = measure(model, end).max_speed;
-  const ContactSample in_contact = touching_in(model, end);
+  const ContactSample in_contact = sample_contacts(model, end);
   // At 8 m a velocity below half a unit in the last place per step changes no position, so nothing damps it.
   const double hidden = 0.5 * 8.0 * epsilon_single / settings.simulation.timestep;
   return Finding{speed < std::max(1e-4, hidden) && in_contact.count > 0 && in_contact.least >= 0.09 &&

@@ -113,21 +113,21 @@ Result<Rise> energy_rise(const Subject& subject, const Model& model, double dura
   };
   ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
   Rise rise;
-  bool touched = false, contact = false;
+  bool had_contact = false, contact = false;
   double least = 0.0;
   for (std::uint64_t step = 0; step < steps_of(model, duration); ++step) {
     ASPIC_TRY(auto now, run(*solver, 1));
     const double energy = measure(model, now).total();
     const bool was_contact = std::exchange(contact, in_contact(now));
-    if (!touched && contact) {
-      touched = true;
+    if (!had_contact && contact) {
+      had_contact = true;
       least = rise.start = energy;
     }
-    if (touched && !was_contact && !contact) ++rise.airborne;
-    if (touched) rise.above_least = std::max(rise.above_least, energy - least);
+    if (had_contact && !was_contact && !contact) ++rise.airborne;
+    if (had_contact) rise.above_least = std::max(rise.above_least, energy - least);
     least = std::min(least, energy);
   }
-  if (!touched) return Error{ErrorCode::check_failed, "nothing touched the ground"};
+  if (!had_contact) return Error{ErrorCode::check_failed, "nothing touched the ground"};
   return rise;
 }
 

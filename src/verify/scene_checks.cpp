@@ -19,7 +19,7 @@ double max_speed(const State& state) {
 /// Largest depth without the ground as a share of h·max|v|, and in metres; and whether anything came near.
 struct Depth {
   double share = 0.0, metres = 0.0;
-  bool touched = false;
+  bool contact = false;
 };
 
 /// How far a step would go without the ground: the step of the same model without terrain.
@@ -37,7 +37,7 @@ Result<Depth> depth_without_ground(const Subject& subject, const Model& model, s
   for (std::uint64_t step = 0; step < steps; ++step) {
     ASPIC_TRY(auto before, run(*unhindered, 1, &now));
     const double depth = deepest(model, before);
-    worst.touched = worst.touched || depth > -model.contact.epsilon;
+    worst.contact = worst.contact || depth > -model.contact.epsilon;
     if (depth > rounding) {
       const double reach = model.simulation.timestep * std::max(max_speed(now), max_speed(before));
       worst.share = std::max(worst.share, (depth - rounding) / reach);
@@ -53,7 +53,7 @@ Result<Finding> depth(const Subject& subject, const std::string& scene, std::vec
   ASPIC_TRY(auto loaded, load_scene(scene, overrides));
   ASPIC_TRY(auto model, build_model(loaded.model));
   ASPIC_TRY(auto worst, depth_without_ground(subject, model, steps));
-  if (!worst.touched) return Finding{false, "nothing touched the ground"};
+  if (!worst.contact) return Finding{false, "nothing touched the ground"};
   return Finding{worst.share <= 1.0, fmt::format("{:.4f} ({:.3g} mm)", worst.share, 1000 * worst.metres)};
 }
 

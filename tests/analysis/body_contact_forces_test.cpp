@@ -108,7 +108,7 @@ TEST(BodyContactForces, BalanceAtRest) {
   }
 }
 
-TEST(BodyContactForces, AreNoneWhereBodiesCannotTouch) {
+TEST(BodyContactForces, AreNoneWithoutBodyContact) {
   ModelSettings settings;
   settings.cubes = {cube_at(1.0, 0.0), cube_at(1.5, 0.0)};
   settings.contact.bodies = false;

@@ -29,7 +29,7 @@ std::vector<BodyOverlap> deep(const Model& model) {
                                 [](std::uint32_t, std::uint32_t) { return false; });
 }
 
-TEST(BodyOverlap, HasDepthAndEnergyOfThePushes) {
+TEST(BodyOverlap, HasDepthAndEnergyOfContact) {
   // A fifth of a spacing, over the whole face.
   const auto found = overlaps({cube_at({}), cube_at({0.0, 1.9, 0.0}), cube_at({10.0, 0.0, 0.0})});
   ASSERT_EQ(found.size(), 1u);
@@ -54,7 +54,7 @@ TEST(BodyOverlap, ComparesFewOfACrowdWithEachOther) {
   EXPECT_EQ(found.back().b, 61u);
 }
 
-TEST(BodyOverlap, IsNoneWhereBodiesOnlyTouchOrPassThroughEachOther) {
+TEST(BodyOverlap, IsNoneForBodiesInContactOrWithoutContact) {
   EXPECT_TRUE(overlaps({cube_at({}), cube_at({0.0, 2.0, 0.0})}).empty());
   EXPECT_TRUE(overlaps({cube_at({}), cube_at({0.0, 2.03, 0.0})}).empty());
   ModelSettings settings;

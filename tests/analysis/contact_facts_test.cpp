@@ -70,7 +70,7 @@ TEST(ContactFacts, DependOnDampingMethodFrictionAndKind) {
       EXPECT_EQ(pairing.pair.friction, 0.3);
     }
   }
-  // Bodies of one cell, of unequal masses, and the energy of a sheet's push.
+  // Bodies of one cell, of unequal masses, and the energy of contact with a sheet.
   settings = two_default_cubes();
   settings.cubes[0].particles_per_edge = settings.cubes[1].particles_per_edge = 2;
   EXPECT_NEAR(contact_facts(test::build(settings)).pairings[0].speed(), 0.5 * 4.0 * std::sqrt(14625.0), 1e-9);

@@ -125,7 +125,7 @@ TEST(Energy, MeterThatKeepsItsSearchGivesTheBitsOfAFreshOne) {
   const Model model = test::build(test::pile(Integrator::symplectic_euler, ContactModel::coulomb));
   const State start = initial_state(model, Precision::double_);
   Meter kept(model);
-  int touching = 0;
+  int in_contact = 0;
   const auto compare = [&](std::uint64_t step, double squeeze, const Vec3& second) {
     State state = start;
     state.step = step;
@@ -135,7 +135,7 @@ TEST(Energy, MeterThatKeepsItsSearchGivesTheBitsOfAFreshOne) {
       x = x + second;
     const Measures one = kept.measure(state), fresh = measure(model, state);
     EXPECT_TRUE(*one.contact == *fresh.contact && one.elastic == fresh.elastic) << step;
-    touching += *fresh.contact > 0.0 ? 1 : 0;
+    in_contact += *fresh.contact > 0.0 ? 1 : 0;
   };
   for (std::uint64_t step = 0; step < 40; ++step) compare(step, 1.0 - 0.01 * static_cast<double>(step), {});
   compare(500, 0.8, {0.0, 30.0, 0.0});
@@ -144,7 +144,7 @@ TEST(Energy, MeterThatKeepsItsSearchGivesTheBitsOfAFreshOne) {
   wrong.position[7].x = std::numeric_limits<double>::quiet_NaN();
   (void)kept.measure(wrong);
   compare(2, 0.8, {});  // earlier, as after going back
-  EXPECT_GE(touching, 30);
+  EXPECT_GE(in_contact, 30);
 }
 
 TEST(Energy, EmptyModelIsAllZero) {

@@ -78,10 +78,10 @@ TEST(ParticleForceTest, IsTheReferencesInTheCourseModel) {
   const State state = shaken(model, 0.02, 0.004);
   expect_references_force(model, state);
   const SpringFinder incident(model);
-  int touching = 0;
+  int in_contact = 0;
   for (std::uint32_t i = 0; i < model.particle_count(); ++i)
-    touching += particle_force(model, incident, state, i).contact != Vec3{};
-  EXPECT_GT(touching, 10) << "else nothing was compared";
+    in_contact += particle_force(model, incident, state, i).contact != Vec3{};
+  EXPECT_GT(in_contact, 10) << "else nothing was compared";
 }
 
 TEST(ParticleForceTest, CountsThePullOfAHand) {

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::Not;
 using Words = std::vector<std::string>;
 
-TEST(SceneContact, IsToldOfBodiesThatMayTouch) {
+TEST(SceneContact, ReportsBodiesThatMayBeInContact) {
   const auto check = aspic({"scene", "check", "cubes-stack", "--set", "cube[0].friction=0.1"});
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_THAT(

@@ -91,8 +91,8 @@ Candidates by_brute_force(const Model& model, const Field<double>& x) {
 // The search finds what the definition says, on paths on which its lists are made again now and then: bodies
 // that shake, fall together, and pass each other.
 TEST(CandidateSearch, FindsTheCandidatesOfTheDefinition) {
-  ModelSettings settings = test::touching({cube_of(3, {}), cube_of(4, {1.8, 0, 0}, 0.7 * spacing),
-                                           test::box_of({2, 9, 2}, {0, 3, 0}), cube_of(2, {40, 0, 0})});
+  ModelSettings settings = test::contact_scene({cube_of(3, {}), cube_of(4, {1.8, 0, 0}, 0.7 * spacing),
+                                                test::box_of({2, 9, 2}, {0, 3, 0}), cube_of(2, {40, 0, 0})});
   settings.contact.self = true;
   const Model model = test::build(settings);
   const auto count = static_cast<Eigen::Index>(model.particle_count());
@@ -121,9 +121,9 @@ TEST(CandidateSearch, FindsTheCandidatesOfTheDefinition) {
   }
 }
 
-// The faces of a cloth push from further away than those of what is in front of it.
+// Contact with faces of a cloth has a longer range than with those of the bodies in front of it.
 TEST(CandidateSearch, FindsTrianglesInReachOfAClothAlone) {
-  ModelSettings settings = test::touching({});
+  ModelSettings settings = test::contact_scene({});
   ClothSettings& cloth = settings.cloths.emplace_back();
   cloth.particles = {5, 5};
   cloth.size = {4 * spacing, 4 * spacing};

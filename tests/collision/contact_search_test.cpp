@@ -25,10 +25,10 @@ template <class Contact>
 std::vector<std::uint32_t> bits(Contact& contact, const Field<float>& x, const Field<float>& v) {
   std::vector<std::uint32_t> all;
   contact.find({components(x.data()), components(v.data()), 3});
-  for (const ContactPoint<float>& touch : contact.contacts()) {
-    all.insert(all.end(), {touch.point, touch.triangle});
-    for (const float number : {touch.n.x(), touch.n.y(), touch.n.z(), touch.d, touch.normal_force,
-                               touch.weight[0], touch.weight[2], touch.weight[3], touch.weight[4]})
+  for (const ContactPoint<float>& point : contact.contacts()) {
+    all.insert(all.end(), {point.point, point.triangle});
+    for (const float number : {point.n.x(), point.n.y(), point.n.z(), point.d, point.normal_force,
+                               point.weight[0], point.weight[2], point.weight[3], point.weight[4]})
       all.push_back(std::bit_cast<std::uint32_t>(number));
   }
   return all;
@@ -105,8 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(ContactSearches, FindTheContactsOfTheDefinition) {
   ModelSettings settings =
-      test::touching({cube_of(4, {0, 0, 0}), test::turned(cube_of(3, {0, 1.16, 0}), {0, 1, 0}, 20.0),
-                      test::box_of({2, 9, 2}, {1.0, 0, 0.1})});
+      test::contact_scene({cube_of(4, {0, 0, 0}), test::turned(cube_of(3, {0, 1.16, 0}), {0, 1, 0}, 20.0),
+                           test::box_of({2, 9, 2}, {1.0, 0, 0.1})});
   ClothSettings& cloth = settings.cloths.emplace_back();
   cloth.particles = {6, 6};
   cloth.size = {2.0, 2.0};

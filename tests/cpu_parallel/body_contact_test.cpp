@@ -30,7 +30,7 @@ std::string hash_on_cpu(const Model& model, std::uint64_t steps, unsigned thread
 class BodiesOnTheCpu : public testing::TestWithParam<Integrator> {};
 INSTANTIATE_TEST_SUITE_P(CpuSolver, BodiesOnTheCpu, testing::ValuesIn(all_integrators), test::by_integrator);
 
-TEST_P(BodiesOnTheCpu, TouchWithTheReferencesBits) {
+TEST_P(BodiesOnTheCpu, HaveTheReferencesBits) {
   for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
     SCOPED_TRACE(name_of(contact));
     ModelSettings settings = test::pile(GetParam(), contact);
@@ -42,7 +42,7 @@ TEST_P(BodiesOnTheCpu, TouchWithTheReferencesBits) {
   }
 }
 
-TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsOnEveryInstructionSet) {
+TEST(BodiesOnTheCpu, HaveTheReferencesBitsOnEveryInstructionSet) {
   const Model model = test::build(test::pile(Integrator::velocity_verlet, ContactModel::coulomb));
   const std::string expected = state_hash_text(after(model, 70));
   for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
@@ -52,7 +52,7 @@ TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsOnEveryInstructionSet) {
   hwy::SetSupportedTargetsForTest(0);
 }
 
-TEST(BodiesOnTheCpu, TouchThemselvesWithTheReferencesBits) {
+TEST(BodiesOnTheCpu, HaveTheReferencesBitsInSelfContact) {
   ModelSettings settings = test::pile(Integrator::symplectic_euler, ContactModel::coulomb);
   settings.contact.self = true;
   const Model model = test::build(settings);
@@ -60,7 +60,7 @@ TEST(BodiesOnTheCpu, TouchThemselvesWithTheReferencesBits) {
 }
 
 // The reference looks at every candidate in every step; this backend keeps lists for as long as they hold.
-TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsInEveryKindOfMotion) {
+TEST(BodiesOnTheCpu, HaveTheReferencesBitsInEveryKindOfMotion) {
   for (test::ContactMotion& motion : test::contact_motions()) {
     SCOPED_TRACE(motion.name);
     if (motion.impact_share > 0.0) {
@@ -91,7 +91,7 @@ TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsInEveryKindOfMotion) {
 }
 
 // Pins, pulls and other constants reach contact too.
-TEST(BodiesOnTheCpu, TouchWithTheReferencesBitsUnderInputsAndOtherConstants) {
+TEST(BodiesOnTheCpu, HaveTheReferencesBitsUnderInputsAndOtherConstants) {
   ModelSettings settings = test::pile(Integrator::midpoint, ContactModel::coulomb);
   settings.balls.push_back({0.3, 2.0, {1.6, 2.2, 0.2}, {-3.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
   settings.simulation.drag = 0.7;

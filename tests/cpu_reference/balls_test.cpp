@@ -170,7 +170,7 @@ TEST(Balls, AreFoundWhereverTheyAre) {
     }
     const Model model = test::build(settings);
     const State end = after(model, 1);
-    int touching = 0;
+    int overlapping = 0;
     for (std::size_t a = 0; a < model.balls.size(); ++a) {
       bool overlaps = false;
       for (std::size_t b = 0; b < model.balls.size() && !overlaps; ++b) {
@@ -178,9 +178,9 @@ TEST(Balls, AreFoundWhereverTheyAre) {
         overlaps = a != b && length(e) < model.balls[a].radius + model.balls[b].radius;
       }
       EXPECT_EQ(end.ball_position[a] != model.balls[a].initial_position, overlaps) << "ball " << a;
-      touching += overlaps;
+      overlapping += overlaps;
     }
-    EXPECT_GT(touching, 50);
+    EXPECT_GT(overlapping, 50);
   }
 }
 

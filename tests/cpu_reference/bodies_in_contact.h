@@ -51,17 +51,17 @@ inline CubeSettings on_its_bottom(CubeSettings cube) {
   return cube;
 }
 
-inline ModelSettings touching(std::vector<CubeSettings> cubes,
-                              Integrator integrator = Integrator::symplectic_euler) {
+inline ModelSettings contact_scene(std::vector<CubeSettings> cubes,
+                                   Integrator integrator = Integrator::symplectic_euler) {
   ModelSettings settings;
   settings.cubes = std::move(cubes);
   settings.contact.bodies = true;
   settings.simulation.integrator = integrator;
   return settings;
 }
-inline ModelSettings weightless_touching(std::vector<CubeSettings> cubes,
-                                         Integrator integrator = Integrator::symplectic_euler) {
-  ModelSettings settings = touching(std::move(cubes), integrator);
+inline ModelSettings weightless_contact_scene(std::vector<CubeSettings> cubes,
+                                              Integrator integrator = Integrator::symplectic_euler) {
+  ModelSettings settings = contact_scene(std::move(cubes), integrator);
   settings.simulation.gravity = {};
   return settings;
 }
@@ -83,20 +83,20 @@ inline Vec3 mean(const std::vector<Vec3>& of, const Body& body) {
 }
 
 /// Contacts in a state: how many, the least and the greatest distance among them in spacings.
-struct Touching {
+struct ContactDistances {
   std::size_t count = 0;
   double least = 1.0, greatest = -1.0;
 };
-inline Touching contacts_in(const Model& model, const State& state) {
+inline ContactDistances contacts_in(const Model& model, const State& state) {
   reference::BodyContact<double> contact(model);
   const auto x = physics::field<double>(state.position), v = physics::field<double>(state.velocity);
   const auto at = view_of_fields(x, v);
-  Touching found;
+  ContactDistances found;
   if (!contact.begin_step(state.step, at) || !contact.find(at)) return found;
-  for (const auto& touch : contact.contacts()) {
+  for (const auto& each : contact.contacts()) {
     ++found.count;
-    found.least = std::min(found.least, touch.d / spacing);
-    found.greatest = std::max(found.greatest, touch.d / spacing);
+    found.least = std::min(found.least, each.d / spacing);
+    found.greatest = std::max(found.greatest, each.d / spacing);
   }
   return found;
 }

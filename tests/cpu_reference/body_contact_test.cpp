@@ -51,12 +51,13 @@ ModelSettings meeting(Meeting how, double v, Integrator integrator, double c = 6
     below = turned(below, {0, 0, 1}, 45);
     above.position.y = across + 0.25 * S;
   }
-  return test::weightless_touching({damped(below, c), damped(above, c)}, integrator);
+  return test::weightless_contact_scene({damped(below, c), damped(above, c)}, integrator);
 }
 
 struct Impact {
   double momentum = 0.0, spin = 0.0;  ///< changes, in Σ m·|v| and in that times 1 m
-  double over = 0.0, apart = 0.0;     ///< largest energy above the start: at all, and while nothing touches
+  double over = 0.0,
+         apart = 0.0;  ///< largest energy above the start: at all, and while nothing is in contact
   double restitution = 0.0;
   std::size_t left = 0;  ///< contacts at the end
 };
@@ -109,7 +110,7 @@ TEST(BodyContact, ImpactInSinglePrecisionKeepsMomentum) {
   EXPECT_LE(end.apart, 1e-4);
 }
 
-TEST(BodyContact, PushesKeepSpin) {
+TEST(BodyContact, NormalForcesKeepSpin) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     ModelSettings settings = meeting(Meeting::offset, 5.0, integrator);
     settings.contact.body_friction = 0.0;
@@ -129,7 +130,7 @@ TEST(BodyContact, DampingKeepsExplicitEulerFromGaining) {
 ModelSettings stacked(int n, int cubes, Integrator integrator) {
   std::vector<CubeSettings> all = {test::on_its_bottom(cube_of(n, {}))};
   for (int i = 1; i < cubes; ++i) all.push_back(cube_of(n, {0, i * (n - 1 + 0.2) * S, 0}));
-  return test::touching(all, integrator);
+  return test::contact_scene(all, integrator);
 }
 
 TEST_P(EveryExplicitMethod, CubeComesToRestOnAnother) {
@@ -137,9 +138,9 @@ TEST_P(EveryExplicitMethod, CubeComesToRestOnAnother) {
   const auto solver = test::solver_for(model);
   const State end = advanced(*solver, 4000);
   EXPECT_LE(test::fastest(end), 1e-5);
-  const test::Touching touching = contacts_in(model, end);
-  EXPECT_GE(touching.least, 0.09);
-  EXPECT_LE(touching.greatest, 0.10);
+  const test::ContactDistances contacts = contacts_in(model, end);
+  EXPECT_GE(contacts.least, 0.09);
+  EXPECT_LE(contacts.greatest, 0.10);
 }
 
 TEST(BodyContact, RestsInSinglePrecision) {
@@ -147,9 +148,9 @@ TEST(BodyContact, RestsInSinglePrecision) {
   EXPECT_LE(test::fastest(test::after(model, 5000, Precision::single)), 2e-4);
 }
 
-// On the ground the pushes come before its reaction, which sees them.
+// The ground's reaction follows normal forces between bodies and takes them into account.
 TEST(BodyContact, StackRestsOnThePlane) {
-  ModelSettings settings = test::touching({cube_of(3, {0, 1.1 * S, 0}), cube_of(3, {0, 3.2 * S, 0})});
+  ModelSettings settings = test::contact_scene({cube_of(3, {0, 1.1 * S, 0}), cube_of(3, {0, 3.2 * S, 0})});
   settings.terrain.push_back({});
   const Model model = build(settings);
   const auto solver = test::solver_for(model);
@@ -163,10 +164,10 @@ TEST(BodyContact, StackRestsOnThePlane) {
 /// A 4³ cube on a pinned slab that leans by an angle whose tangent is given.
 ModelSettings on_slope(double tangent, double friction, double offset, double yaw) {
   const double angle = std::atan(tangent);
-  ModelSettings settings =
-      test::touching({fixed(test::box_of({14, 3, 8}, {})),
-                      turned(cube_of(4, {(-6.5 + 1.5 + 1.0 + offset) * S, (1.0 + 1.5 + 0.1) * S, offset * S}),
-                             {0, 1, 0}, yaw)});
+  ModelSettings settings = test::contact_scene(
+      {fixed(test::box_of({14, 3, 8}, {})),
+       turned(cube_of(4, {(-6.5 + 1.5 + 1.0 + offset) * S, (1.0 + 1.5 + 0.1) * S, offset * S}), {0, 1, 0},
+              yaw)});
   settings.simulation.gravity = {9.8 * std::sin(angle), -9.8 * std::cos(angle), 0.0};
   settings.contact.body_friction = friction;
   return settings;
@@ -232,8 +233,9 @@ TEST_P(EveryExplicitMethod, SticksWithinTheConeAndSlidesBeyond) {
 /// Whether two bodies that meet at a relative speed, in the body's speed of sound, are turned back.
 bool turned_back(CubeSettings below, CubeSettings above, double speed, double c, double h) {
   const double sound = S * std::sqrt(7.3125 * 2000.0);
-  ModelSettings settings = test::weightless_touching({moving(damped(below, c), {0, speed * sound / 2, 0}),
-                                                      moving(damped(above, c), {0, -speed * sound / 2, 0})});
+  ModelSettings settings =
+      test::weightless_contact_scene({moving(damped(below, c), {0, speed * sound / 2, 0}),
+                                      moving(damped(above, c), {0, -speed * sound / 2, 0})});
   settings.simulation.timestep = h;
   const Model model = build(settings);
   const auto solver = test::solver_for(model);
@@ -292,7 +294,7 @@ TEST(BodyContact, EdgesAndCornersMeet) {
   const double ridge = half * std::numbers::sqrt2, tip = half * std::sqrt(3.0);
   struct Case {
     CubeSettings below, above;
-    double touching;  // height of the upper centre
+    double height;  // of the upper centre in contact
   };
   const CubeSettings plain = cube_of(4, {}), edge = turned(plain, {1, 0, 0}, 45),
                      across = turned(plain, {0, 0, 1}, 45), pointed = turned(plain, {1, 0, -1}, corner);
@@ -303,8 +305,8 @@ TEST(BodyContact, EdgesAndCornersMeet) {
   for (const Case& each : cases) {
     CubeSettings below = moving(each.below, {0, 2, 0}), above = moving(each.above, {0, -2, 0});
     const bool points = &each == &cases[0];
-    above.position = {(points ? 0.02 : 0.13) * S, each.touching + 0.15 * S, (points ? 0.03 : 0.21) * S};
-    const Model model = build(test::weightless_touching({below, above}));
+    above.position = {(points ? 0.02 : 0.13) * S, each.height + 0.15 * S, (points ? 0.03 : 0.21) * S};
+    const Model model = build(test::weightless_contact_scene({below, above}));
     const auto solver = test::solver_for(model);
     const double start = measure(model, *solver->state()).total();
     State end;
@@ -322,7 +324,7 @@ TEST(BodyContact, EdgesAndCornersMeet) {
 /// A 4³ cube between two slabs whose particles have no weight and move as they are told.
 TEST(BodyContact, SqueezedCubeTakesItsShapeAgain) {
   const double edge = 3 * S;
-  ModelSettings settings = test::weightless_touching(
+  ModelSettings settings = test::weightless_contact_scene(
       {fixed(test::box_of({8, 3, 7}, {0, -(edge / 2 + 1.15 * S), 0})),
        fixed(test::box_of({8, 3, 7}, {0, edge / 2 + 1.15 * S, 0})), cube_of(4, {})});
   const Model model = build(settings);
@@ -341,7 +343,7 @@ TEST(BodyContact, SqueezedCubeTakesItsShapeAgain) {
     s = reference::explicit_step(Integrator::symplectic_euler,
                                  reference::StepDynamics<double>(dynamics, terms, s.x, s.v, &contact), s,
                                  0.001);
-    for (const auto& touch : contact.contacts()) deepest = std::min(deepest, touch.d / S);
+    for (const auto& point : contact.contacts()) deepest = std::min(deepest, point.d / S);
   }
   EXPECT_GE(deepest, -0.1);
   EXPECT_LE(deepest, 0.05) << "it was not squeezed";
@@ -355,10 +357,11 @@ TEST(BodyContact, SqueezedCubeTakesItsShapeAgain) {
   EXPECT_LE(off, 1e-3 * S);
 }
 
-// Overlapping bodies part slowly: their pushes begin where they are and come back with time.
+// Overlapping bodies part slowly: their normal forces begin at the first distance, which returns to ρ with
+// time.
 TEST(BodyContact, EasesOverlapApart) {
   const Model model =
-      build(test::weightless_touching({cube_of(4, {}), cube_of(4, {0.3 * S, 2.5 * S, 0.2 * S})}));
+      build(test::weightless_contact_scene({cube_of(4, {}), cube_of(4, {0.3 * S, 2.5 * S, 0.2 * S})}));
   const auto solver = test::solver_for(model);
   EXPECT_LE(measure(model, *solver->state()).elastic, 1e-20);
   const State end = advanced(*solver, 1200);
@@ -371,7 +374,7 @@ TEST(BodyContact, EasesOverlapApart) {
 // Nothing but x, v and the step number says how a run goes on, also while bodies are eased apart.
 TEST(BodyContact, ContinuesWithTheSameBits) {
   const Model model =
-      build(test::touching({test::on_its_bottom(cube_of(3, {})), cube_of(3, {0.1, 1.9 * S, 0})}));
+      build(test::contact_scene({test::on_its_bottom(cube_of(3, {})), cube_of(3, {0.1, 1.9 * S, 0})}));
   for (const std::uint64_t first : {50u, 400u}) {
     const State half = test::after(model, first, Precision::single);
     EXPECT_GT(contacts_in(model, half).count, 0u);
@@ -384,14 +387,14 @@ TEST(BodyContact, ContinuesWithTheSameBits) {
 
 // Bodies that never come near each other keep every bit.
 TEST(BodyContact, ChangesNothingWhereNothingIsNear) {
-  ModelSettings settings = test::touching({cube_of(4, {0, 2, 0}), cube_of(4, {4, 2.5, 0})});
+  ModelSettings settings = test::contact_scene({cube_of(4, {0, 2, 0}), cube_of(4, {4, 2.5, 0})});
   settings.terrain.push_back({});
   const State with = test::after(build(settings), 1000, Precision::single);
   settings.contact.bodies = false;
   EXPECT_EQ(state_hash_text(with), state_hash_text(test::after(build(settings), 1000, Precision::single)));
 }
 
-TEST(BodyContact, PinnedBodiesPushAndStay) {
+TEST(BodyContact, PinnedBodiesRepelAndStay) {
   ModelSettings settings = stacked(3, 2, Integrator::symplectic_euler);
   settings.cubes[0] = fixed(cube_of(3, {}));
   const Model model = build(settings);
@@ -406,7 +409,7 @@ struct InCorner {
   double along = 0.0, rest = 0.0;  ///< mean speed along the notch, and the fastest motion without it [m/s]
 };
 InCorner in_corner(double friction, std::uint64_t steps) {
-  ModelSettings settings = test::touching({cube_of(3, {0.4 * S, 0.5 * S, 0})});
+  ModelSettings settings = test::contact_scene({cube_of(3, {0.4 * S, 0.5 * S, 0})});
   VoxelsSettings& corner = settings.voxels.emplace_back();
   corner.size = S;
   corner.position = {};
@@ -440,7 +443,7 @@ TEST(BodyContact, RestsInANotch) {
 // ---- a body with itself ----
 
 Model alone(const std::array<int, 3>& particles) {
-  ModelSettings settings = test::weightless_touching({test::box_of(particles, {})});
+  ModelSettings settings = test::weightless_contact_scene({test::box_of(particles, {})});
   settings.contact.self = true;
   return build(settings);
 }
@@ -474,7 +477,7 @@ double least_gap_of_legs(bool self) {
   std::string planes;
   for (int i = 0; i < 8; ++i) planes += i < 2 || i > 5 ? leg : bottom;
   planes.pop_back();
-  ModelSettings settings = test::weightless_touching({test::box_of({9, 8, 3}, {})});
+  ModelSettings settings = test::weightless_contact_scene({test::box_of({9, 8, 3}, {})});
   settings.contact.self = self;
   settings.contact.bodies = false;
   const Model model = test::with_cells(settings, test::lattice_of(planes));

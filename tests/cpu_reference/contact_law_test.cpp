@@ -1,5 +1,6 @@
-// Contact between bodies, formula by formula: the nearest place of a triangle, which faces a point touches,
-// the push as the gradient of its energy, the sums. What it makes of bodies is in body_contact_test.cpp.
+// Contact between bodies, formula by formula: the nearest place of a triangle, the faces in contact with a
+// point, the normal force as the gradient of its energy, the sums. What it makes of bodies is in
+// body_contact_test.cpp.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -63,7 +64,7 @@ TEST(ClosedGap, ReachesOutsideAndFartherInside) {
   EXPECT_FALSE(gap({-0.04, -0.03, -0.2})) << "beside the face rather than behind it";
 }
 
-TEST(OpenGap, PushesToTheSideWhereThePointIs) {
+TEST(OpenGap, RepelsToTheSideWhereThePointIs) {
   const V A(0, 0, 0), B(1, 0, 0), C(0, 0, -1);
   const auto gap = [&](const V& P) {
     return open_gap<double>(closest_point<double>(0, 0, face_of<double>(A, B, C), P), 0.25);
@@ -102,7 +103,7 @@ TEST(NearestOf, FacesThatAreEquallyNearGoByDistance) {
 class Poses : public testing::Test {
  protected:
   Poses() {
-    settings_ = test::touching({cube_of(3, {}), cube_of(3, {100, 0, 0})});
+    settings_ = test::contact_scene({cube_of(3, {}), cube_of(3, {100, 0, 0})});
     settings_.contact.body_damping = 0.0;
     settings_.contact.body_friction = 0.0;
   }
@@ -135,25 +136,25 @@ TEST_F(Poses, PushIsTheGradientOfItsEnergy) {
     ++poses;
     const auto contacts = [&] { return contact.contacts().size(); };
     const std::size_t count = contacts();
-    const std::vector<std::uint32_t> touched(contact.particles().begin(), contact.particles().end());
-    std::vector<V> f(touched.size(), V::Zero());
+    const std::vector<std::uint32_t> particles(contact.particles().begin(), contact.particles().end());
+    std::vector<V> f(particles.size(), V::Zero());
     contact.add_forces(
         view_of_fields(x, v), [](std::uint32_t) { return 1.0; }, f);
     V sum = V::Zero(), turn = V::Zero();
     for (std::size_t n = 0; n < f.size(); ++n) {
       sum += f[n];
-      turn += V(x.col(touched[n])).cross(f[n]);
+      turn += V(x.col(particles[n])).cross(f[n]);
     }
     EXPECT_LE(sum.norm(), 1e-12 * scale * double(count));
     EXPECT_LE(turn.norm(), 1e-12 * scale * double(count));
-    const std::size_t n = random() % touched.size();
+    const std::size_t n = random() % particles.size();
     const double e = 1e-6 * spacing;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       std::array<double, 2> energy;
       bool same = true;
       for (const int way : {0, 1}) {
         Field<double> moved = x;
-        moved(axis, touched[n]) += way ? e : -e;
+        moved(axis, particles[n]) += way ? e : -e;
         contact.find(view_of_fields(moved, v));
         same = same && contacts() == count;
         energy[static_cast<std::size_t>(way)] = contact.energy();
@@ -187,20 +188,20 @@ TEST_F(Poses, FrictionTakesEnergyAndKeepsMomentum) {
         view_of_fields(x, v), [](std::uint32_t) { return 1.0; }, f);
     spread<double>(contact.contacts(), before,
                    [](const ContactPoint<double>& t) { return V(t.normal_force * t.n); });
-    double gained = 0.0, pushes = 0.0;
+    double gained = 0.0, normal_forces = 0.0;
     V sum = V::Zero();
     for (std::size_t n = 0; n < f.size(); ++n) {
       const V v_0 = v.col(contact.particles()[n]);
       gained += (v_0 + h * f[n]).squaredNorm() - (v_0 + h * before[n]).squaredNorm();
       sum += f[n];
     }
-    for (const ContactPoint<double>& touch : contact.contacts()) {
-      EXPECT_LE(touch.friction.norm(), 0.4 * touch.normal_force * (1.0 + 8 * eps));
-      EXPECT_NEAR(touch.friction.dot(touch.n), 0.0, 1e-12 * (1.0 + touch.normal_force));
-      pushes += touch.normal_force;
+    for (const ContactPoint<double>& point : contact.contacts()) {
+      EXPECT_LE(point.friction.norm(), 0.4 * point.normal_force * (1.0 + 8 * eps));
+      EXPECT_NEAR(point.friction.dot(point.n), 0.0, 1e-12 * (1.0 + point.normal_force));
+      normal_forces += point.normal_force;
     }
     EXPECT_LE(gained, 1e-12);
-    EXPECT_LE(sum.norm(), 64 * eps * pushes);
+    EXPECT_LE(sum.norm(), 64 * eps * normal_forces);
   }
   EXPECT_GT(poses, 40);
 }
@@ -208,18 +209,19 @@ TEST_F(Poses, FrictionTakesEnergyAndKeepsMomentum) {
 // What reads no order: every contact is evaluated by itself, and sums run by particle.
 TEST(ContactSums, RunCarriersFirstThenCorners) {
   ContactPoint<float> first, second;
-  for (ContactPoint<float>* touch : {&first, &second}) {
-    touch->carriers = 1;
-    touch->weight = {1.0f, 0.0f, 0.5f, 0.25f, 0.25f};
-    touch->n = Vector<float>(0, 1, 0);
+  for (ContactPoint<float>* point : {&first, &second}) {
+    point->carriers = 1;
+    point->weight = {1.0f, 0.0f, 0.5f, 0.25f, 0.25f};
+    point->n = Vector<float>(0, 1, 0);
   }
   first.place = {1, 1, 0, 2, 3};   // particle 0 is a corner of the first contact
   second.place = {0, 0, 1, 2, 3};  // and carries the second
   first.normal_force = 1e8f;
   second.normal_force = 3.0f;
-  const std::array touches = {first, second};
+  const std::array contacts = {first, second};
   std::vector<Vector<float>> f(4, Vector<float>(0, 1, 0));
-  spread<float>(touches, f, [](const ContactPoint<float>& t) { return Vector<float>(t.normal_force * t.n); });
+  spread<float>(contacts, f,
+                [](const ContactPoint<float>& t) { return Vector<float>(t.normal_force * t.n); });
   EXPECT_EQ(f[0].y(), (1.0f + 3.0f) - 5e7f);
   EXPECT_EQ(f[1].y(), (1.0f + 1e8f) - 1.5f);
 }

@@ -23,7 +23,7 @@ using test::turned;
 constexpr double S = test::spacing;
 
 ModelSettings solved(std::vector<CubeSettings> cubes, double rate = 60.0) {
-  ModelSettings settings = test::touching(std::move(cubes), Integrator::implicit_euler);
+  ModelSettings settings = test::contact_scene(std::move(cubes), Integrator::implicit_euler);
   settings.simulation.timestep = 1.0 / rate;
   return settings;
 }
@@ -88,10 +88,10 @@ TEST(ImplicitBodyContact, StacksRest) {
         EXPECT_LE(energy(model, state), start * (1 + 1e-6));
       }
       EXPECT_LE(test::fastest(state), precision == Precision::double_ ? 5e-5 : 2e-3);
-      const test::Touching touching = contacts_in(model, state);
-      EXPECT_GT(touching.count, 9u * static_cast<std::size_t>(count - 1));
-      EXPECT_GE(touching.least, count == 2 ? 0.097 : 0.092);
-      EXPECT_LE(touching.greatest, 0.1);
+      const test::ContactDistances contacts = contacts_in(model, state);
+      EXPECT_GT(contacts.count, 9u * static_cast<std::size_t>(count - 1));
+      EXPECT_GE(contacts.least, count == 2 ? 0.097 : 0.092);
+      EXPECT_LE(contacts.greatest, 0.1);
       expect_solved(*solver);
     }
   }
@@ -139,7 +139,7 @@ TEST(ImplicitBodyContact, EasesBodiesApartThatOverlapAtTheStart) {
   EXPECT_LT(parting, 0.6);
 }
 
-// Friction at landing is bounded by the pushes with which the body is stopped, not by those it came with.
+// Friction at landing is bounded by the normal forces that stop the body, not by those at the start.
 TEST(ImplicitBodyContact, LandsWithinTheConeOfFriction) {
   CubeSettings cube = moving(cube_of(3, {-2 * S, 1.8 * S, 0.1 * S}), {6, -3, 0});
   ModelSettings settings = solved({fixed(test::box_of({9, 2, 5}, {})), cube}, 240.0);
@@ -161,24 +161,24 @@ TEST(ImplicitBodyContact, KeepsEveryBitWhereNothingIsNear) {
 // The matrix is the derivative of the force: −h·∂F/∂v'.
 TEST(ImplicitBodyContact, MatrixIsTheDerivativeOfTheForce) {
   using physics::Vector;
-  physics::ContactPoint<double> touch;
-  touch.n = Vector<double>(0.48, 0.6, 0.64);
-  touch.static_force = 3.0;
-  touch.c = 250.0;
+  physics::ContactPoint<double> contact;
+  contact.n = Vector<double>(0.48, 0.6, 0.64);
+  contact.static_force = 3.0;
+  contact.c = 250.0;
   const double h = 0.02;
   for (const double cone : {0.0, 0.4, 50.0}) {
     for (const double u : {-0.05, 0.05}) {
-      touch.friction = 0.3 * Vector<double>(0.8, 0.0, -0.6);
-      const Vector<double> r = u * touch.n + Vector<double>(0.02, 0.01, -0.03);
+      contact.friction = 0.3 * Vector<double>(0.8, 0.0, -0.6);
+      const Vector<double> r = u * contact.n + Vector<double>(0.02, 0.01, -0.03);
       physics::ContactResponse<double> at, plus, minus;
       at.cone = plus.cone = minus.cone = cone;
-      physics::answer<double>(touch, r, h, at);
+      physics::answer<double>(contact, r, h, at);
       for (int c = 0; c < 3; ++c) {
         const Vector<double> step = 1e-6 * Vector<double>::Unit(c);
-        physics::answer<double>(touch, r + step, h, plus);
-        physics::answer<double>(touch, r - step, h, minus);
+        physics::answer<double>(contact, r + step, h, plus);
+        physics::answer<double>(contact, r - step, h, minus);
         const Vector<double> slope = -h / 2e-6 * (plus.force - minus.force);
-        EXPECT_LE((slope - physics::product_of<double>(touch, at, Vector<double>::Unit(c))).norm(), 1e-6)
+        EXPECT_LE((slope - physics::product_of<double>(contact, at, Vector<double>::Unit(c))).norm(), 1e-6)
             << cone << ' ' << u;
       }
     }

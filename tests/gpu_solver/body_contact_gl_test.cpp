@@ -24,7 +24,7 @@ State by_reference(const Model& model, std::uint64_t steps) {
   return *solver->state();
 }
 
-class Touching : public testing::GlTest {
+class BodyContactOnTheDevice : public testing::GlTest {
  protected:
   std::unique_ptr<GpuSolver> gpu(const Model& model, ForcePath path = ForcePath::automatic) {
     GpuOptions options;
@@ -41,7 +41,7 @@ class Touching : public testing::GlTest {
 };
 
 // Methods take turns with paths and contact models.
-TEST_F(Touching, HasTheReferencesBitsUnderEveryMethodAndOnEveryPath) {
+TEST_F(BodyContactOnTheDevice, HasTheReferencesBitsUnderEveryMethodAndOnEveryPath) {
   std::size_t n = 0;
   for (const Integrator integrator : explicit_integrators) {
     const ForcePathRow& path = force_paths()[n++ % force_paths().size()];
@@ -57,7 +57,7 @@ TEST_F(Touching, HasTheReferencesBitsUnderEveryMethodAndOnEveryPath) {
 }
 
 // Few steps, since they are long; what moves fast wants other lists soon.
-void Touching::expect_the_references_bits(const ForcePathRow& path, ContactModel contact) {
+void BodyContactOnTheDevice::expect_the_references_bits(const ForcePathRow& path, ContactModel contact) {
   SCOPED_TRACE(fmt::format("{}, {}", path.name, name_of(contact)));
   ModelSettings settings = pile(Integrator::implicit_euler, contact);
   settings.simulation.timestep = 0.005;
@@ -68,14 +68,14 @@ void Touching::expect_the_references_bits(const ForcePathRow& path, ContactModel
   EXPECT_FALSE(by_reference(test::build(settings), 15) == expected) << "nothing touches";
 }
 
-TEST_F(Touching, HasTheReferencesBitsUnderImplicitEulerOnEveryPath) {
+TEST_F(BodyContactOnTheDevice, HasTheReferencesBitsUnderImplicitEulerOnEveryPath) {
   std::size_t n = 0;
   for (const ForcePathRow& path : force_paths())
     if (path.implicit)
       expect_the_references_bits(path, n++ % 2 == 0 ? ContactModel::coulomb : ContactModel::course);
 }
 
-TEST_F(Touching, HasTheReferencesBitsUnderImplicitEulerOnEveryPathWithEveryContactModel) {
+TEST_F(BodyContactOnTheDevice, HasTheReferencesBitsUnderImplicitEulerOnEveryPathWithEveryContactModel) {
   for (const ForcePathRow& path : force_paths()) {
     if (!path.implicit) continue;
     for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course})
@@ -85,7 +85,7 @@ TEST_F(Touching, HasTheReferencesBitsUnderImplicitEulerOnEveryPathWithEveryConta
 
 // Bodies that overlap at the start, without friction; then states in mid-contact, other constants, and steps
 // asked for one by one.
-TEST_F(Touching, IsSolvedFromAnywhere) {
+TEST_F(BodyContactOnTheDevice, IsSolvedFromAnywhere) {
   ModelSettings settings = pile(Integrator::implicit_euler, ContactModel::coulomb);
   settings.simulation.timestep = 0.005;
   settings.contact.self = true;
@@ -113,7 +113,7 @@ TEST_F(Touching, IsSolvedFromAnywhere) {
   EXPECT_EQ(*solver->state(), *expected->state());
 }
 
-TEST_F(Touching, HasTheReferencesBitsOfBodiesThatTouchThemselvesWithoutFriction) {
+TEST_F(BodyContactOnTheDevice, HasTheReferencesBitsOfSelfContactWithoutFriction) {
   ModelSettings settings = pile(Integrator::symplectic_euler, ContactModel::coulomb);
   settings.contact.self = true;
   settings.contact.body_friction = 0.0;
@@ -122,7 +122,7 @@ TEST_F(Touching, HasTheReferencesBitsOfBodiesThatTouchThemselvesWithoutFriction)
 }
 
 // Of two bodies the smaller friction counts; of one none at all.
-TEST_F(Touching, HasTheReferencesBitsOfBodiesWithFrictionOfTheirOwn) {
+TEST_F(BodyContactOnTheDevice, HasTheReferencesBitsOfBodiesWithFrictionOfTheirOwn) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::implicit_euler}) {
     ModelSettings settings = pile(integrator, ContactModel::coulomb);
     if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 0.005;
@@ -138,7 +138,7 @@ TEST_F(Touching, HasTheReferencesBitsOfBodiesWithFrictionOfTheirOwn) {
   }
 }
 
-TEST_F(Touching, HasTheReferencesBitsWithBallsAndInputs) {
+TEST_F(BodyContactOnTheDevice, HasTheReferencesBitsWithBallsAndInputs) {
   ModelSettings settings = pile(Integrator::midpoint, ContactModel::coulomb);
   settings.balls.push_back({0.3, 2.0, {1.6, 2.2, 0.2}, {-3.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
   settings.simulation.drag = 0.7;
@@ -157,7 +157,7 @@ TEST_F(Touching, HasTheReferencesBitsWithBallsAndInputs) {
 }
 
 // Lists are made on the host for many steps; the reference looks at every candidate in every step.
-TEST_F(Touching, HasTheReferencesBitsInEveryKindOfMotion) {
+TEST_F(BodyContactOnTheDevice, HasTheReferencesBitsInEveryKindOfMotion) {
   for (test::ContactMotion& motion : test::contact_motions()) {
     SCOPED_TRACE(motion.name);
     if (motion.impact_share > 0.0) motion.settings.cubes[0].velocity.y = -20.0;
@@ -185,7 +185,7 @@ TEST_F(Touching, HasTheReferencesBitsInEveryKindOfMotion) {
 }
 
 // A state in mid-contact, other constants, and steps asked for one by one.
-TEST_F(Touching, GoesOnFromAnywhere) {
+TEST_F(BodyContactOnTheDevice, GoesOnFromAnywhere) {
   ModelSettings settings = pile(Integrator::velocity_verlet, ContactModel::coulomb);
   const Model model = test::build(settings);
   settings.contact.body_gap = 0.15;

@@ -94,8 +94,8 @@ TEST(SeriesCsv, SolveColumnsHoldWhatCameSinceTheRowBefore) {
                                    "3,1.5,1,0,60,61,2,0,0,1,3,1,7,0.125,0,0,1\n");
 }
 
-// In a model whose bodies can touch, the energy of their pushes comes last; other columns keep their places.
-TEST(SeriesCsv, EnergyOfContactFollowsWhereBodiesCanTouch) {
+// In a model whose bodies can touch, the energy of their contact comes last; other columns keep their places.
+TEST(SeriesCsv, EnergyOfContactFollowsInModelsWithBodyContact) {
   const test::TemporaryDirectory dir;
   auto series = SeriesWriter::create(dir.file("e.csv"), Overwrite::refuse, true);
   ASSERT_TRUE(series.ok());

@@ -116,7 +116,7 @@ TEST(ContactSurface, PairsHaveTheirConstants) {
   EXPECT_DOUBLE_EQ(contact_pair(contact, hard, soft, false).reach, 0.02);
 }
 
-TEST(ContactSurface, IsWantedWhereSomethingCanTouch) {
+TEST(ContactSurface, IsBuiltOnlyWhenContactIsPossible) {
   ModelSettings settings;
   settings.cubes.resize(1);
   settings.contact.bodies = true;

@@ -56,7 +56,7 @@ TEST(GoldenRuns, AreToldFromOthersByEveryBit) {
 }
 
 // What falls freely has the same bits whatever the terrain.
-TEST(CoveringCases, TouchTheirTerrain) {
+TEST(CoveringCases, ReachTheirTerrain) {
   for (const EqualityCase& row : covering_cases()) {
     SCOPED_TRACE(text_of(row));
     Model model = model_of(row);
