@@ -24,7 +24,7 @@ struct Measures {
   double kinetic = 0.0;  ///< Σ ½ m v², of balls also ½ I ω² [J]
   /// Springs: Σ ½ k (L − r)² with r at the state's time; contact: Σ ½ k (ρ − d)² [J].
   double elastic = 0.0;
-  std::optional<double> contact;     ///< of it, what these pushes hold [J]; nothing where bodies cannot touch
+  std::optional<double> contact;     ///< of it, the energy of contact [J]; absent without contact of bodies
   double gravitational = 0.0;        ///< −Σ m g·x [J], zero at the origin
   std::optional<double> drag_power;  ///< Σ γ m v² [W], which drag dissipates; nothing without drag
   Vec3 momentum;                     ///< Σ m v [N·s]

@@ -93,8 +93,8 @@ struct ContactSettings {
   bool bodies = true;                          ///< whether bodies touch each other (docs/contact.md)
   bool self = false;                           ///< whether a body touches itself
   double body_friction = 0.3;  ///< μ, ≥ 0, default of every body; of two the smaller counts
-  double body_gap = 0.1;       ///< ρ, where pushes begin, in spacings, > 0 … 1
-  double body_damping = 0.2;   ///< ζ of pushes, 0…1
+  double body_gap = 0.1;       ///< ρ, where normal forces begin, in spacings, > 0 … 1
+  double body_damping = 0.2;   ///< ζ of normal forces, 0…1
 };
 
 /// How a terrain moves to and fro: displaced by amplitude·sin 2π(frequency·t + phase) along a direction.

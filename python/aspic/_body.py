@@ -101,7 +101,7 @@ class Body:
 
     @property
     def contacts(self) -> NDArray[np.bool_]:
-        """Which of its particles touch the ground or are pushed by another body, (n,)."""
+        """Which of its particles are in contact with the ground or another body, (n,)."""
         return self._simulation.quantities.contact[self._slice]
 
     @property

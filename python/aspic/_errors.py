@@ -106,7 +106,7 @@ class RunWarning(UserWarning):
 
 
 class OverlapWarning(RunWarning):
-    """Bodies are within each other: at the start of a simulation, or so deep that nothing pushes them apart."""
+    """Bodies are within each other: at the start of a simulation, or too deep for contact to separate them."""
 
 
 _classes: dict[int, type[Error]] = {

@@ -64,7 +64,7 @@ class Quantities(NamedTuple):
     contact_force: NDArray[np.float64]
     """Of the ground and of other bodies on particles, (n, 3) [N]."""
     contact: NDArray[np.bool_]
-    """Whether particles touch the ground or are pushed by another body, (n,)."""
+    """Whether particles are in contact with the ground or another body, (n,)."""
     strain: NDArray[np.float64]
     """L/r − 1 of springs, (m,); in the order of ``springs``."""
     tension: NDArray[np.float64]

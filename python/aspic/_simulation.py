@@ -88,8 +88,8 @@ class Simulation(Replayable):
     ):
         """Makes the solver at the scene's start; later changes of ``scene`` do not matter to it.
 
-        What does not hold there is named by a RunWarning, bodies that overlap by an OverlapWarning; later, one names those that have come so deep into
-        each other that nothing pushes them apart, ten times a simulated second at most and each pair once.
+        What does not hold there is named by a RunWarning, bodies that overlap by an OverlapWarning; later, one names those too deep within
+        each other for contact to separate them, ten times a simulated second at most and each pair once.
 
         ``scene``: one, or what ``aspic.load()`` takes; ``backend``: ``"auto"`` (a hardware GPU, else ``cpu``),
         ``"gpu"``, ``"cpu"``, ``"reference"``, with options after colons (``"gpu:gather"``, ``"cpu:fast"``);

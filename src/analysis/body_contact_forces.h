@@ -1,5 +1,5 @@
 #pragma once
-// What bodies that touch do to each other's particles at a state, in double precision.
+// Forces of contact between bodies on their particles at a state, in double precision.
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,17 +14,17 @@ template <class T>
 class ContactSearch;
 }
 
-/// Pushes and friction of other bodies on one particle, of those whose points it carries and those that touch
-/// faces at it (docs/contact.md).
+/// Normal forces and friction of other bodies on one particle, as carrier of points and as corner of faces
+/// (docs/contact.md).
 struct BodyContactForce {
   std::uint32_t particle = 0;
-  Vec3 normal;  ///< unit, the direction of the pushes' sum; zero where they balance
+  Vec3 normal;  ///< unit, direction of the sum of normal forces; zero where they balance
   Vec3 force;   ///< [N]
 };
 
 class BodyContactForces {
  public:
-  /// Finds nothing where the model's bodies cannot touch. The model must outlive it.
+  /// Finds nothing in a model without contact between bodies. The model must outlive it.
   explicit BodyContactForces(const Model& model);
   /// The same, with the forces of a state.
   BodyContactForces(const Model& model, const SpringFinder& springs, const State& state,
@@ -34,14 +34,14 @@ class BodyContactForces {
   /// Finds the forces that the step has which begins with this state; under implicit Euler those with which
   /// its first solve begins. `springs` and `inputs` as in particle_force().
   void find(const SpringFinder& springs, const State& state, const Inputs& inputs);
-  /// Of particles that are pushed, ascending.
+  /// Of particles with normal forces, ascending.
   std::span<const BodyContactForce> forces() const { return forces_; }
   /// On one particle [N].
   Vec3 on(std::uint32_t particle) const;
 
  private:
   const Model& model_;
-  std::unique_ptr<collision::ContactSearch<double>> contact_;  // none where no bodies can touch
+  std::unique_ptr<collision::ContactSearch<double>> contact_;  // null: no contact between bodies
   std::vector<BodyContactForce> forces_;
 };
 

@@ -196,7 +196,7 @@ double deepest_within(const Skin& skin, const std::vector<Vector>& places) {
 }
 
 /// Particles of one body within another, those inside of it, too: where bodies are nearly in one place, all
-/// points of their surfaces are next to faces that turn the same way, which push nothing.
+/// points of their surfaces are next to faces that turn the same way, which exert no normal force.
 void add_particles_within(const Model& model, const State& state, const ContactSurfaces& surfaces,
                           DeepPoints::Found& overlaps) {
   std::vector<Eigen::AlignedBox3d> boxes;
@@ -316,7 +316,7 @@ std::vector<BodyOverlap> overlaps_of(const Model& all, const State& state) {
     overlap.energy += 0.5 * pair.stiffness * near * near;
   }
   add_particles_within(model, state, surfaces, overlaps);
-  // What touches without being within each other, but for rounding, is left out.
+  // Leaves out bodies in contact that overlap by no more than rounding.
   std::vector<BodyOverlap> within;
   for (const auto& [pair, each] : overlaps) {
     if (!(each.deepest > 1e-6 * each.most)) continue;

@@ -1,6 +1,6 @@
 #pragma once
-// Bodies that are within each other at a state: what a start eases apart, and what is so deep that nothing
-// pushes it out (docs/contact.md).
+// Bodies that overlap at a state: those that a start eases apart, and those too deep for contact to separate
+// (docs/contact.md).
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -16,8 +16,8 @@ namespace aspic {
 struct BodyOverlap {
   std::uint32_t a = 0, b = 0;  ///< indices in Model::bodies, a < b
   double deepest = 0.0;        ///< of these points, below the surface [m]
-  double most = 0.0;           ///< D, up to which they are pushed [m]
-  double energy = 0.0;         ///< of all pushes between the two, were they not eased apart [J]
+  double most = 0.0;           ///< D, up to which contact acts [m]
+  double energy = 0.0;         ///< of all contacts between the two, were they not eased apart [J]
   bool locked() const { return deepest > most; }
 };
 
@@ -66,7 +66,7 @@ bool has_crowd(const Model& model, const State& state);
 
 /// Every pair of which one has points or particles within the other at a state, with what is deeper than D.
 /// Of a crowd in one place, some: there are as many pairs as the square of its bodies.
-/// Nothing where the model's bodies do not touch each other.
+/// Empty for a model without contact between bodies.
 std::vector<BodyOverlap> overlaps_of(const Model& model, const State& state);
 
 }  // namespace aspic

@@ -44,8 +44,8 @@ bool one_cell_thick(const Body& body) {
   return false;
 }
 
-/// Of the speed at which a point alone would take all energy that a sheet's push can hold, what holds with
-/// the masses behind the point.
+/// Share of the speed at which a point alone has all energy that contact with a sheet can hold: that of a
+/// point with masses behind it.
 constexpr double sheet_share = 0.9;
 
 ContactPairing pairing_of(const Model& model, const ContactFacts& facts, std::size_t a, std::size_t b,
@@ -54,14 +54,14 @@ ContactPairing pairing_of(const Model& model, const ContactFacts& facts, std::si
   const double h = model.simulation.timestep;
   ContactPairing made = {a, b, self, contact_pair(model.contact, one.body, other.body, self)};
   made.sheet_speed = std::numeric_limits<double>::infinity();
-  // Nothing within an open surface pushes back what has passed its reach.
+  // An open surface exerts no force on points that have passed its reach.
   double way = 0.5 * made.pair.spacing;
   if (!row_of(model.simulation.integrator).staged()) way = 0.3 * made.pair.spacing;
   for (const auto& [points, faces] : {std::pair(&one, &other), std::pair(&other, &one)}) {
     const ContactPair pair = contact_pair(model.contact, points->body, faces->body, self);
     if (!faces->body.closed) {
       way = std::min(way, pair.reach);
-      // ½·m·v² against ½·k·reach²; other points of the body push on this one.
+      // ½·m·v² against ½·k·reach²; other points of the body load this one.
       made.sheet_speed = std::min(made.sheet_speed,
                                   sheet_share * pair.reach * std::sqrt(pair.stiffness / points->body.mass));
     }

@@ -36,7 +36,7 @@ struct ContactPairing {
   ContactPair pair;          ///< of two closed bodies; of others the smaller ρ
   double sound_speed = 0.0;  ///< up to which nothing passes, by the speed of sound [m/s]
   double step_speed = 0.0;   ///< the same, by the way in a step [m/s]
-  double sheet_speed = 0.0;  ///< the same, by the energy that a push of an open surface holds [m/s]
+  double sheet_speed = 0.0;  ///< the same, by the energy that contact with an open surface holds [m/s]
   double least_zeta = 0.0;   ///< ζ below which explicit Euler gains energy in an impact: hω/2
 
   double speed() const { return std::min({sound_speed, step_speed, sheet_speed}); }

@@ -9,16 +9,16 @@
 
 namespace aspic {
 
-/// A particle nearer than ε to a terrain, or pushed by other bodies.
+/// A particle nearer than ε to a terrain, or with normal forces of other bodies.
 struct ParticleContact {
   static constexpr std::size_t of_bodies = static_cast<std::size_t>(-1);
   std::uint32_t particle = 0;
   std::size_t terrain = 0;  ///< index in Model::terrain, or of_bodies
   Vec3 normal;              ///< unit, from the terrain towards the particle; of bodies as BodyContactForce
-  /// On the particle [N]: of bodies their pushes and friction; the course model's contact force; in the
-  /// Coulomb model the reaction that a particle at rest on the ground feels in the step that begins with this
-  /// state, from the forces at its start (docs/physics.md). Zero of a particle that only touches: its bounce
-  /// is an impulse, which no state holds.
+  /// On the particle [N]: of bodies their normal forces and friction; the course model's contact force; in
+  /// the Coulomb model the reaction that a particle at rest on the ground feels in the step that begins with
+  /// this state, from the forces at its start (docs/physics.md). Zero of a particle that only touches: its
+  /// bounce is an impulse, which no state holds.
   Vec3 force;
 };
 

@@ -331,7 +331,7 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
   };
   show("energy/plot", energy_curves(s.model()), comparison_view.compared[0], "J",
        "Energies of the run over time [J]. The gravitational one is zero at the origin; that of contact is "
-       "the part of the elastic one that pushes between bodies hold. What actuators have done is the sum "
+       "the part of the elastic one that is in contact between bodies. What actuators have done is the sum "
        "of their work since the first point of the plot; it keeps growing, and its curve may leave the plot. "
        "A click goes to that moment. At rest explicit Euler keeps a little kinetic energy: within a step "
        "gravity and contact act one after the other.");

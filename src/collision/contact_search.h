@@ -34,7 +34,7 @@ class ContactSearch : public ContactForces<T> {
  public:
   using typename ContactForces<T>::Particles;
 
-  /// Of a model whose has_body_contact(). Bodies that overlap in its initial state are pushed apart slowly.
+  /// Of a model whose has_body_contact(). Bodies that overlap in its initial state are eased apart.
   /// With an `ahead_step` h [s] normal forces are those at the end of a step (docs/contact.md, "Implicit
   /// Euler"): contacts are found from contact_range spacings on, and k·h replaces the damping.
   explicit ContactSearch(const Model& model, double ahead_step = 0.0);

@@ -270,7 +270,7 @@ HWY_INLINE Gap gap_of(const ClosestPoint& seen, Mask closed, Float range, Float 
           hn::Or(both(inside, deep), hn::AndNot(inside, outside))};
 }
 
-/// Whether a triangle of another side than the first contact's may be touched, too.
+/// Whether a triangle of another side than the first contact's may be in contact, too.
 HWY_INLINE Mask second_side(const Listed& all, std::size_t count, const Best& first, Float range) {
   Mask any = hn::Lt(range, range);
   for (std::size_t j = 0; j < count; ++j) {
@@ -363,7 +363,7 @@ void FindContacts(const ContactTables<float>& from, ContactBatch<float>& batch) 
     const Float c_u = hn::Mul(pairs.of(&Constants::c), dot3(gap.n, v - v_face));
     Float rest = hn::Mul(pairs.of(&Constants::k), hn::Sub(pairs.of(&Constants::reach), gap.d));
     if (from.at_end) rest = hn::Add(rest, c_u);
-    const Float push = hn::Sub(rest, c_u);
+    const Float normal_force = hn::Sub(rest, c_u);
 
     const Float answer =
         hn::IfThenElse(undecided, hn::Set(tag, static_cast<float>(ContactBatch<float>::undecided)),
@@ -375,7 +375,8 @@ void FindContacts(const ContactTables<float>& from, ContactBatch<float>& batch) 
     hn::StoreU(first.seen.at.c, tag, batch.c.data() + n);
     hn::StoreU(gap.d, tag, batch.d.data() + n);
     hn::StoreU(rest, tag, batch.static_force.data() + n);
-    hn::StoreU(hn::IfThenElseZero(hn::Gt(push, zero), push), tag, batch.normal_force.data() + n);
+    hn::StoreU(hn::IfThenElseZero(hn::Gt(normal_force, zero), normal_force), tag,
+               batch.normal_force.data() + n);
   }
 }
 

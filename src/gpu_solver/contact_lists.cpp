@@ -34,7 +34,7 @@ ContactLists::ContactLists(const Model& model)
   const collision::ContactSearch<double> contact(model);
   for (const auto& [point, body, d] : contact.initial_overlaps())
     starts_.push_back({point, body, static_cast<float>(d)});
-  // Pushes begin at d₀ + s·t, and at ρ at most.
+  // Normal forces begin at d₀ + s·t, and at ρ at most.
   for (const auto& [point, body, d] : contact.initial_overlaps()) {
     const ContactPair pair = contact_pair(contact_, surfaces_.bodies[surfaces_.body_of_point(point)],
                                           surfaces_.bodies[body], surfaces_.body_of_point(point) == body);

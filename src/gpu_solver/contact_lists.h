@@ -1,6 +1,6 @@
 #pragma once
 // What the kernels of contact between bodies walk over (shaders/compute/terms/body_contact.glsl): points with
-// the triangles near them, and for each particle the candidate groups that may push it. Found on the host,
+// the triangles near them, and for each particle the candidate groups that may act on it. Found on the host,
 // for as long as bodies move little.
 #include <cstdint>
 #include <span>

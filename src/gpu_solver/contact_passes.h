@@ -36,7 +36,7 @@ class ContactPasses {
   void queue_start(const gl::Buffer& start, std::uint32_t step) const;
   /// Queues the contacts of a stage, before the forces of springs.
   void queue_find(const States& states, std::uint32_t step, float time) const;
-  /// Queues pushes and friction on these forces.
+  /// Queues normal forces and friction on these forces.
   void queue_act(const States& states, std::uint32_t step) const;
 
  private:

@@ -21,7 +21,7 @@ inline constexpr std::string_view series_csv_header =
 /// before, the residual [m/s] of the last of them.
 inline constexpr std::string_view series_csv_solve_header =
     ",newton_iterations,cg_iterations,residual,converged,stagnated,not_converged";
-/// What follows these in a model whose bodies can touch: of the elastic energy, that of pushes between them.
+/// Follows these in a model with contact between bodies: the part of the elastic energy in contacts.
 inline constexpr std::string_view series_csv_contact_header = ",contact";
 /// And in one with actuators: their work since the first row.
 inline constexpr std::string_view series_csv_work_header = ",actuator_work";

@@ -162,11 +162,11 @@ ContactPair contact_pair(const ContactSettings& contact, const ContactBody& poin
       2.0 * contact.body_damping * std::sqrt(pair.stiffness / (1.0 / point_of.mass + 1.0 / face_of.mass));
   pair.friction = std::min(point_of.friction, face_of.friction);
   pair.spacing = std::min(point_of.spacing, face_of.spacing);
-  // Nothing inside an open surface pushes back what has passed its reach.
+  // An open surface exerts no force on points that have passed its reach.
   pair.reach = (face_of.closed ? 1.0 : 2.5) * contact.body_gap * pair.spacing;
   pair.range = pair.reach;
-  // A point beyond the middle of a body would be pushed out of the other side: a body of one cell is s thick,
-  // less where it is compressed.
+  // Contact would move a point beyond the middle of a body out of the other side: a body of one cell is s
+  // thick, less where it is compressed.
   pair.depth = 0.25 * pair.spacing;
   pair.eased_depth = (same_body ? 0.5 : 1.0) * pair.spacing;
   pair.margin = std::max(pair.eased_depth, pair.reach) + 0.5 * pair.spacing;

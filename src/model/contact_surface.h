@@ -1,6 +1,6 @@
 #pragma once
-// What contact between bodies needs of their surfaces (docs/contact.md): the points that touch, the triangles
-// that are touched, and the constants of a pair. Made once, from a model.
+// Surfaces for contact between bodies (docs/contact.md): points of one body, triangles of another, and the
+// constants of a pair. Made once, from a model.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace aspic {
 
-/// A place on a body that touches others: a particle of its surface, or a point between two neighbours on a
+/// A point of a body for contact: a particle of its surface, or a point between two neighbours on a
 /// sharp edge.
 struct SurfacePoint {
   std::array<std::uint32_t, 2> carrier = {};  ///< particles; a particle's own point names it twice
@@ -78,7 +78,7 @@ struct ContactPair {
   double damping = 0.0;      ///< c [N·s/m]
   double friction = 0.0;     ///< μ
   double spacing = 0.0;      ///< s [m]
-  double reach = 0.0;        ///< ρ [m]: where pushes begin
+  double reach = 0.0;        ///< ρ [m]: where normal forces begin
   double range = 0.0;        ///< up to where contacts are found [m]
   double depth = 0.0;        ///< D [m]: where they end, far from the middle of the thinnest body
   double eased_depth = 0.0;  ///< the same of bodies that are eased apart [m]
@@ -90,15 +90,14 @@ ContactPair contact_pair(const ContactSettings& contact, const ContactBody& poin
 /// Distance, in spacings, from which on implicit Euler knows of a contact at the start of a step.
 inline constexpr double contact_range = 0.4;
 
-/// The same pair where pushes are those at the end of a step h [s], k·(ρ − d − h·u): k·h is the damping, and
-/// contacts are found from contact_range on.
+/// The same pair where normal forces are those at the end of a step h [s], k·(ρ − d − h·u): k·h is the
+/// damping, and contacts are found from contact_range on.
 ContactPair with_implicit_range(ContactPair pair, double h);
 
-/// Least distance, in spacings and at rest, of a point and a triangle's corners for them to touch within one
-/// body.
+/// Least distance, in spacings and at rest, of a point and a triangle's corners for contact within one body.
 inline constexpr double least_rest_distance = 2.1;
 
-/// Bytes that a solver takes for all of it, without what touches at the moment.
+/// Bytes that a solver takes for all of it, without current contacts.
 std::uint64_t contact_bytes(const Model& model);
 
 /// Whether the settings ask for contact that some of the model's bodies can have.

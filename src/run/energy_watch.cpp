@@ -111,7 +111,7 @@ EnergyWatch::Reach EnergyWatch::reach(const Terrain& terrain, const State& state
     return signed_distance(there, x) <
            radius + model_.contact.epsilon + interval_ * (length(v) + fastest + gained);
   };
-  // A ball passes on what it is pushed with to particles that it touches.
+  // A ball passes energy from terrain on to particles in contact with it.
   for (std::size_t b = 0; b < model_.balls.size(); ++b)
     if (near(state.ball_position[b], state.ball_velocity[b], model_.balls[b].radius)) return all_;
   Reach sum;

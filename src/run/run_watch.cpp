@@ -85,10 +85,10 @@ void RunWatch::knows_what(const RunWatch& other) {
 Diagnostic RunWatch::Parts::overlap() const {
   std::vector<std::string> pairs;
   for (const BodyOverlap& each : at_start)
-    pairs.push_back(
-        fmt::format("{} by {:.3g} m{}{}", pair(each), each.deepest,
-                    each.locked() ? fmt::format(", deeper than the {:.3g} m that are pushed", each.most) : "",
-                    each.energy > 0.0 ? fmt::format(", {:.3g} J", each.energy) : ""));
+    pairs.push_back(fmt::format(
+        "{} by {:.3g} m{}{}", pair(each), each.deepest,
+        each.locked() ? fmt::format(", deeper than the {:.3g} m up to which contact acts", each.most) : "",
+        each.energy > 0.0 ? fmt::format(", {:.3g} J", each.energy) : ""));
   const bool locked = std::ranges::any_of(at_start, &BodyOverlap::locked);
   const std::string count =
       at_start.size() == 1 ? std::string("two bodies") : fmt::format("{} pairs of bodies", at_start.size());
@@ -114,14 +114,14 @@ void RunWatch::Parts::look_for_deep(const State& state, std::vector<Diagnostic>&
   std::string where;
   for (const BodyOverlap& each : deep->find(state, known)) {
     pairs.push_back(
-        fmt::format("{} by {:.3g} m, of {:.3g} m that are pushed", pair(each), each.deepest, each.most));
+        fmt::format("{} by {:.3g} m, and contact acts up to {:.3g} m", pair(each), each.deepest, each.most));
     if (where.empty()) where = names.at(each.a);
     told_pairs.emplace(each.a, each.b);
   }
   if (pairs.empty()) return;
   found.push_back(
       {"deep-overlap", where,
-       fmt::format("bodies are so deep within each other {} that nothing pushes their inside apart: {}",
+       fmt::format("bodies are so deep within each other {} that contact does not separate them: {}",
                    when(state), listed(pairs)),
        "They met too fast, or too soft: see what aspic scene check says of contact"});
 }

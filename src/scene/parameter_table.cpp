@@ -83,9 +83,9 @@ Rows contact_rows() {
       row("contact.body-friction", "", friction, FIELD(model.contact.body_friction),
           "Friction coefficient of bodies that do not set their own; of two that touch the smaller counts."),
       row("contact.body-gap", "", {0.0, 1.0, true}, FIELD(model.contact.body_gap),
-          "Distance at which bodies begin to push each other, in spacings of their particles."),
+          "Distance at which normal forces between bodies begin, in spacings of their particles."),
       row("contact.body-damping", "", fraction, FIELD(model.contact.body_damping),
-          "Damping ratio ζ of these pushes."),
+          "Damping ratio ζ of these normal forces."),
   };
 }
 

@@ -18,7 +18,7 @@ from oracle_cells import MATERIAL, Actuation, build_voxels, cells_of_cube
 from oracle_contact import CoulombStep, dot
 from oracle_implicit import backward_euler
 from oracle_scene import BALL, TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene, surface_facts
-from oracle_body_contact import Surface, Touch
+from oracle_body_contact import Surface, BodyContact
 
 COLUMNS = ["kind", "index", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"]
 SPEED_LIMIT = 1000.0  # m/s; faster is divergence
@@ -107,7 +107,7 @@ class World:
         surfaces = [Surface(tuple(made["n"]), made["s"], made["k"], made["m"], start, self.x,
                             contact["body-friction"] if made["mu"] is None else made["mu"])
                     for made, start in zip((surface_facts(c) for c in scene["cube"]), starts)]
-        self.touch = Touch(self, surfaces, contact) if contact["bodies"] or contact["self"] else None
+        self.body_contact = BodyContact(self, surfaces, contact) if contact["bodies"] or contact["self"] else None
         tables = [filled(b, BALL, f"ball[{i}]") for i, b in enumerate(scene["ball"])]
         self.balls = Balls(self, tables, contact, surfaces) if tables else None
 
@@ -135,8 +135,8 @@ class World:
         """At the time t + ch."""
         self.be_at(c)
         f = self.own_force(v) + self.spring_force(x, v)
-        if self.touch:
-            f = self.touch.forces(x, v, f)
+        if self.body_contact:
+            f = self.body_contact.forces(x, v, f)
         f = self.course_contact_force(x, v, f) if self.model == "course" else self.ground.reaction(f)
         return self.w[:, None] * f
 
@@ -164,8 +164,8 @@ class World:
         with np.errstate(over="ignore", invalid="ignore"):
             self.be_at(0)
             self.ground = CoulombStep(self) if self.model == "coulomb" else None
-            if self.touch:
-                self.touch.begin(self.x, self.v)
+            if self.body_contact:
+                self.body_contact.begin(self.x, self.v)
             held = None
             if self.integrate:
                 x, v = self.integrate(self.acceleration, self.x, self.v, self.h)

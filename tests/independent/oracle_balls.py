@@ -29,7 +29,7 @@ class Balls:
         self.epsilon, self.e, self.mu = contact["epsilon"], contact["ball-restitution"], contact["ball-friction"]
         self.resting = max(self.epsilon, 2 * np.linalg.norm(world.gravity) * world.h)
         self.surfaces = surfaces if contact["bodies"] and contact["model"] == "coulomb" else []
-        self.touched = False
+        self.acted = False
 
     def numbers(self):
         """Of each ball x, v and ω."""
@@ -49,7 +49,7 @@ class Balls:
                  if (face := self.nearest_face(b, surface, x)) is not None]
         balls = [(a, b) for a in range(len(self.x)) for b in range(a)
                  if np.linalg.norm(self.x[a] - self.x[b]) < self.R[a] + self.R[b] + self.epsilon]
-        self.touched |= bool(near or faces or balls)
+        self.acted |= bool(near or faces or balls)
         if balls:
             raise SceneError("Two balls meet, which this reading leaves out.")
 

@@ -7,7 +7,7 @@ import numpy as np
 
 YOUNGS_MODULUS_PER_STIFFNESS = 7.3125
 REST_DISTANCE = 2.1  # within one body, in spacings
-DEPTH = 0.25  # up to where pushes act inside, in spacings
+DEPTH = 0.25  # up to where normal forces act inside, in spacings
 AHEAD = 0.4  # from where implicit Euler knows of contacts, in spacings
 
 
@@ -69,7 +69,7 @@ def nearest(p, a, b, c):
     return wb, wc, ~np.logical_or.reduce([r[0] for r in regions])
 
 
-class Touch:
+class BodyContact:
     """Contact of a step: made for a world once, told of each step's start."""
 
     def __init__(self, world, surfaces, contact):
@@ -77,7 +77,7 @@ class Touch:
         self.gap, self.zeta = float(contact["body-gap"]), float(contact["body-damping"])
         self.pairs = [(a, b) for a in range(len(surfaces)) for b in range(len(surfaces))
                       if (contact["self"] if a == b else contact["bodies"])]
-        self.eased, self.steps, self.touched, self.initial = {}, 0, False, True
+        self.eased, self.steps, self.acted, self.initial = {}, 0, False, True
         self.begin(world.x, world.v)  # overlaps in the initial state
         self.steps = 0
         for pair, point, d in zip(*(self.contacts(world.x, world.v)[key] for key in ("pair", "point", "d"))):
@@ -102,7 +102,7 @@ class Touch:
 
     def contacts(self, x, v, solve=0):
         """Of the explicit methods, or of implicit Euler's first or second solve."""
-        found = {key: [] for key in ("pair", "point", "index", "weight", "n", "d", "reach", "push", "rest", "c", "mu")}
+        found = {key: [] for key in ("pair", "point", "index", "weight", "n", "d", "reach", "normal_force", "rest", "c", "mu")}
         for pair in self.pairs:
             for contact in self.of_pair(*pair, x, v, solve):
                 for key, value in contact.items():
@@ -166,41 +166,41 @@ class Touch:
                 u = n @ (weight @ v[index])
                 rest = k * (reached - d) + (c * u if solve == 2 else 0.0)
                 yield {"pair": (a, b), "point": point, "index": index, "weight": weight, "n": n, "d": d, "reach": reached,
-                       "push": max(0.0, rest - c * u), "rest": rest, "c": c, "mu": min(A.mu, B.mu)}
+                       "normal_force": max(0.0, rest - c * u), "rest": rest, "c": c, "mu": min(A.mu, B.mu)}
 
     def forces(self, x, v, f):
-        """The forces f with pushes and friction."""
+        """The forces f with normal forces and friction."""
         found = self.contacts(x, v)
-        if not found["push"]:
+        if not found["normal_force"]:
             return f
-        f, rub = self.rubbing({key: np.array(found[key]) for key in ("index", "weight", "n", "push", "mu")}, f)
-        np.add.at(f, found["index"], np.array(found["weight"])[..., None] * rub[:, None])
+        f, friction = self.with_friction({key: np.array(found[key]) for key in ("index", "weight", "n", "normal_force", "mu")}, f)
+        np.add.at(f, found["index"], np.array(found["weight"])[..., None] * friction[:, None])
         return f
 
-    def rubbing(self, found, f):
-        """The forces f with pushes, and the friction of each contact, which is not in them."""
-        index, weight, n, push = (found[key] for key in ("index", "weight", "n", "push"))
+    def with_friction(self, found, f):
+        """The forces f with normal forces, and the friction of each contact, which is not in them."""
+        index, weight, n, normal_force = (found[key] for key in ("index", "weight", "n", "normal_force"))
         f, h, w = f.copy(), self.world.h, self.world.w
-        np.add.at(f, index, weight[..., None] * (push[:, None] * n)[:, None])
+        np.add.at(f, index, weight[..., None] * (normal_force[:, None] * n)[:, None])
         v1 = self.v0 + h * w[:, None] * f
         share = np.zeros(len(f))
-        np.add.at(share, index, np.abs(weight) * push[:, None])
-        on = push > 0
-        W = np.where(on, (np.abs(weight) * w[index] * share[index]).sum(1) / np.where(on, push, 1), 0)
+        np.add.at(share, index, np.abs(weight) * normal_force[:, None])
+        on = normal_force > 0
+        W = np.where(on, (np.abs(weight) * w[index] * share[index]).sum(1) / np.where(on, normal_force, 1), 0)
         r = (weight[..., None] * v1[index]).sum(1)
         slip = r - dot(r, n)[:, None] * n
         J = slip / np.where(W > 0, W, np.inf)[:, None]
-        size, cone = np.linalg.norm(J, axis=1), found["mu"] * h * push
+        size, cone = np.linalg.norm(J, axis=1), found["mu"] * h * normal_force
         J *= np.where(size > cone, cone / np.where(size > 0, size, 1), 1)[:, None]
-        self.touched = True
+        self.acted = True
         return f, -J / h
 
     def ahead(self, x, v, f, solve):
         """The contacts of a solve of implicit Euler; f: gravity and springs where the step begins. None: there are none."""
         found = {key: np.array(value) for key, value in self.contacts(x, v, solve).items() if key not in ("pair", "point")}
-        if not len(found["push"]):
+        if not len(found["normal_force"]):
             return None
-        return found | {"rub": self.rubbing(found, f)[1], "cone": found["mu"] * found["push"]}
+        return found | {"friction": self.with_friction(found, f)[1], "cone": found["mu"] * found["normal_force"]}
 
     def react(self, held, v):
         """Forces of these contacts at the velocities v of the step's end, and -h times their derivative by these, as an
@@ -209,15 +209,15 @@ class Touch:
         h = self.world.h
         r = (weight[..., None] * v[index]).sum(1)
         u = dot(r, n)
-        push = np.maximum(0.0, held["rest"] - c * u)
-        p = held["rub"] - c[:, None] * (r - u[:, None] * n)
+        normal_force = np.maximum(0.0, held["rest"] - c * u)
+        p = held["friction"] - c[:, None] * (r - u[:, None] * n)
         size = np.linalg.norm(p, axis=1)
         share = np.where(size > cone, cone / np.where(size > 0, size, 1), 1.0) * (cone > 0)
         t = np.where((size > cone)[:, None], p / np.where(size > 0, size, 1)[:, None], 0.0)
         f = np.zeros_like(v)
-        np.add.at(f, index, weight[..., None] * (push[:, None] * n + share[:, None] * p)[:, None])
+        np.add.at(f, index, weight[..., None] * (normal_force[:, None] * n + share[:, None] * p)[:, None])
         nn, tt = n[:, :, None] * n[:, None], t[:, :, None] * t[:, None]
-        block = (h * c)[:, None, None] * ((push > 0)[:, None, None] * nn + share[:, None, None] * (np.eye(3) - nn - tt))
+        block = (h * c)[:, None, None] * ((normal_force > 0)[:, None, None] * nn + share[:, None, None] * (np.eye(3) - nn - tt))
         matrix = np.zeros((len(v), 3, len(v), 3))
         for i in range(5):
             for j in range(5):

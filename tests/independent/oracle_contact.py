@@ -13,8 +13,8 @@ def dot(a, b):
     return np.einsum("ij,ij->i", a, b)
 
 
-def pushed(v, n, target, friction):
-    """Velocities whose normal part the ground brings to `target`; friction takes at most `friction` times that push."""
+def with_impulse(v, n, target, friction):
+    """Velocities whose normal part the ground brings to `target`; friction takes at most `friction` times that impulse."""
     u = dot(v, n)
     slip = v - u[:, None] * n
     speed = np.sqrt(dot(slip, slip))
@@ -59,7 +59,7 @@ class CoulombStep:
         per_step = np.where(world.free, world.h * world.w, 1.0)[:, None]  # h w; pinned particles never rest
         for terrain, start in zip(world.terrains, self.starts):
             ahead = self.v0 + per_step * f
-            held = pushed(ahead, start.n, start.least, terrain.friction)
+            held = with_impulse(ahead, start.n, start.least, terrain.friction)
             acts = start.resting & (dot(ahead, start.n) < start.least)
             f = np.where(acts[:, None], (held - self.v0) / per_step, f)
         return f
@@ -95,7 +95,7 @@ class CoulombStep:
                 crossing = self.crossing(start.d, start.d + world.h * mean)
             target = np.where(start.fast, self.bounce(terrain, start, mean, change, crossing),
                               np.where(set_down, start.least, 0.0))
-            v = np.where(acts[:, None], pushed(v, n, target, terrain.friction), v)
+            v = np.where(acts[:, None], with_impulse(v, n, target, terrain.friction), v)
             if held is None:  # what rests rises no faster than it moves, wherever the method's own lag puts it
                 speed = np.maximum(np.where(acts, target, u), 0.0)
                 undue = np.maximum((d - start.d) - world.h * speed, 0.0)
@@ -110,7 +110,7 @@ class CoulombStep:
         per particle, and by terrain the particles it holds.
 
         A terrain that would be crossed joins the fewest of those that hold a particle already with which none of them
-        is crossed; a second round checks whether a later one pushed it through an earlier one. Of surfaces in one place
+        is crossed; a second round checks whether a later one moved it through an earlier one. Of surfaces in one place
         the one with more friction holds, of equal ones the first in the file."""
         v, slope = free.copy(), np.tile(np.eye(3), (len(free), 1, 1))
         held = np.zeros((len(self.starts), len(free)), dtype=bool)
@@ -152,23 +152,23 @@ class CoulombStep:
 
     def on_surfaces(self, i, by, v):
         """The velocity with the normal speeds that bring particle i to the surfaces `by`, and its derivative. Friction
-        of the sum of mu times the pushes takes from what motion they leave."""
+        of the sum of mu times the impulses takes from what motion they leave."""
         N = np.array([self.starts[t].n[i] for t in by])
         gram = N @ N.T
         if np.linalg.det(gram) <= 1e-6:
             return None  # two surfaces that are one
         target = np.array([self.starts[t].reach[i] for t in by])
-        push_per_speed = -np.linalg.solve(gram, N)
-        push = np.linalg.solve(gram, target) + push_per_speed @ v
-        friction = np.where(push > 0, [self.world.terrains[t].friction for t in by], 0.0)
-        tangential = np.eye(3) + N.T @ push_per_speed
+        impulse_per_speed = -np.linalg.solve(gram, N)
+        impulse = np.linalg.solve(gram, target) + impulse_per_speed @ v
+        friction = np.where(impulse > 0, [self.world.terrains[t].friction for t in by], 0.0)
+        tangential = np.eye(3) + N.T @ impulse_per_speed
         arrived = N.T @ np.linalg.solve(gram, target)
         slip = tangential @ v
         speed = np.linalg.norm(slip)
-        loss = friction @ push
+        loss = friction @ impulse
         if len(by) == 3 or speed == 0 or loss >= speed:
             return arrived, np.zeros((3, 3))
         along = slip / speed
         keep = 1 - loss / speed
         turning = keep * (tangential - np.outer(along, along))
-        return arrived + keep * slip, turning + np.outer(along, along) - np.outer(along, friction @ push_per_speed)
+        return arrived + keep * slip, turning + np.outer(along, along) - np.outer(along, friction @ impulse_per_speed)

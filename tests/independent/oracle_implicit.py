@@ -45,33 +45,33 @@ def force_jacobian(world, x0, v):
 def backward_euler(world):
     """The step's end (x', v') before the terrain's response, and by terrain the particles that the ground held."""
     x0, v0, h, count = world.x, world.v, world.h, len(world.x)
-    held, touching = 0.0, None
+    held, contacts = 0.0, None
     if world.model == "course":
         f = world.own_force(v0) + world.spring_force(x0, v0)
         held = world.course_contact_force(x0, v0, f) - f
 
     def evaluate(v):
         f = world.own_force(v) + world.spring_force(x0 + h * v, v) + held
-        if touching:
-            f = f + world.touch.react(touching, v)[0]
+        if contacts:
+            f = f + world.body_contact.react(contacts, v)[0]
         free = v0 + (h * world.w)[:, None] * f
         end, slope, held_by = (world.ground.project(free) if world.ground else
                                (free, np.broadcast_to(np.eye(3), (count, 3, 3)), None))
         return v - end, slope, held_by
 
     start = world.own_force(v0) + world.spring_force(x0, v0)
-    if world.touch:
-        touching = world.touch.ahead(x0, v0, start, 1)
+    if world.body_contact:
+        contacts = world.body_contact.ahead(x0, v0, start, 1)
     world.be_at(1)
-    v, held_by = newton(world, evaluate, v0, touching)
-    if touching:
-        # Once more, with what touches where this ended.
-        touching = world.touch.ahead(x0 + h * v, v, start, 2)
-        v, held_by = newton(world, evaluate, v, touching)
+    v, held_by = newton(world, evaluate, v0, contacts)
+    if contacts:
+        # Once more, with the contacts where this ended.
+        contacts = world.body_contact.ahead(x0 + h * v, v, start, 2)
+        v, held_by = newton(world, evaluate, v, contacts)
     return x0 + h * v, v, held_by
 
 
-def newton(world, evaluate, v, touching):
+def newton(world, evaluate, v, contacts):
     """The velocities that solve the equation, from v on, and what holds the particles there."""
     x0, count = world.x, len(world.x)
     residual, slope, held_by = evaluate(v)
@@ -84,8 +84,8 @@ def newton(world, evaluate, v, touching):
             break
         # d(residual)/dv = I - P' d(free)/dv; a pinned particle has w = 0 and keeps its velocity.
         jacobian = force_jacobian(world, x0, v)
-        if touching:
-            jacobian = jacobian + world.touch.react(touching, v)[1]
+        if contacts:
+            jacobian = jacobian + world.body_contact.react(contacts, v)[1]
         through = np.einsum("iab,ibjc->iajc", slope * world.w[:, None, None], jacobian)
         matrix = np.eye(3 * count) + through.reshape(3 * count, 3 * count)
         step = np.linalg.solve(matrix, -residual.ravel()).reshape(v.shape)

@@ -185,16 +185,16 @@ def compare(aspic, name, model, integrator, case):
         with open(state, newline="") as rows:
             product = np.array([row[2:] for row in list(csv.reader(rows))[1:]], dtype=float)
         world = World(read_scene(file), Readings())
-    touched = False
+    in_contact = False
     for _ in range(steps):
         world.step()
-        touched |= world.touch is not None and world.touch.touched
-        touched |= world.balls is not None and world.balls.touched
-        touched |= any(np.any(t.distance_and_normal(world.x)[0][world.free] < world.epsilon) for t in world.terrains)
+        in_contact |= world.body_contact is not None and world.body_contact.acted
+        in_contact |= world.balls is not None and world.balls.acted
+        in_contact |= any(np.any(t.distance_and_normal(world.x)[0][world.free] < world.epsilon) for t in world.terrains)
     ours = np.hstack([world.x, world.v, np.zeros_like(world.v)])
     if world.balls:
         ours = np.vstack([ours, world.balls.numbers()])
-    return f"{integrator}, {name}, {model}", np.abs(ours - product).max(), touched and ours.shape == product.shape
+    return f"{integrator}, {name}, {model}", np.abs(ours - product).max(), in_contact and ours.shape == product.shape
 
 
 def main():
@@ -203,10 +203,10 @@ def main():
     cells = cells_of(kind, case)
     bad = 0
     with ProcessPoolExecutor() as pool:
-        for name, difference, touched in pool.map(compare, *zip(*[(aspic, *cell, case) for cell in cells])):
-            good = difference <= case["tolerance"] and touched
+        for name, difference, in_contact in pool.map(compare, *zip(*[(aspic, *cell, case) for cell in cells])):
+            good = difference <= case["tolerance"] and in_contact
             bad += not good
-            print(f"{'ok  ' if good else 'FAIL'} {difference:.2e}  {name}{'' if touched else ': never touched the ground'}")
+            print(f"{'ok  ' if good else 'FAIL'} {difference:.2e}  {name}{'' if in_contact else ': never touched the ground'}")
     print(f"{len(cells)} cases, {bad} failed, tolerance {case['tolerance']}")
     return int(bad > 0)
 

@@ -59,7 +59,7 @@ TEST_F(FaultyDevice, RunsThatGoNowhereAreNoticed) {
   subject.gpu = [&, right = subject.gpu](const Model& model, const GpuOptions& options) {
     models.push_back(std::make_unique<Model>(model));
     models.back()->simulation.timestep = 1e-60;  // 0 in single precision
-    models.back()->terrain.clear();              // which would push out what lies inside it
+    models.back()->terrain.clear();              // which would lift particles out of it
     return right(*models.back(), options);
   };
   for (const char* name : {"repeat/runs", "repeat/group-sizes"}) {
