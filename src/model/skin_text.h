@@ -1,5 +1,5 @@
 #pragma once
-// A mesh as one line of text, which scenes keep (docs/files.md).
+// A mesh as one line of text, which scenes keep (docs/meshes.md, "The skin").
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,5 +1,4 @@
-// What contact between bodies makes of them: impacts, rest, sliding, sticking, speed, corners, a body with
-// itself. The bounds are those of docs/contact.md.
+// Contact between bodies: impacts, rest, sliding, sticking, speed, corners, self-contact.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Contact between bodies in the equation of implicit Euler, in steps of 1/60 s: every step is solved, bodies
-// rest and stick, impacts keep momentum and gain no energy. The bounds are those of docs/contact.md.
+// rest and stick, impacts keep momentum and gain no energy.
 #include <gtest/gtest.h>
 
 #include <cmath>

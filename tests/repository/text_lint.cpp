@@ -102,13 +102,14 @@ class Line {
 
   void pages() {
     if (text_.find("docs/") == std::string::npos) return;
-    static const std::regex page(R"((docs/[a-z-]+\.md)(, sections? (\d+))?)");
+    static const std::regex page(R"re((docs/[a-z-]+\.md)(, sections? (\d+)|, "([^"]+)")?)re");
     for (const std::smatch& match : matches(text_, page)) {
       const fs::path path = root_ / match.str(1);
       if (!fs::exists(path)) {
         add("path", match.str(1));
-      } else if (match[3].matched && std::ranges::none_of(headings(path), [&](const std::string& heading) {
-                   return heading.starts_with(match.str(3) + ". ");
+      } else if (match[2].matched && std::ranges::none_of(headings(path), [&](const std::string& heading) {
+                   return match[3].matched ? heading.starts_with(match.str(3) + ". ")
+                                           : heading == match.str(4);
                  })) {
         add("section", match.str(0));
       }

@@ -18,7 +18,7 @@ struct Offence {
 /// Offences of one text in the order of lines. `file` is its path below `root`, the repository.
 /// outside: a page that is not part of the repository, as a section or a file.
 /// path: `docs/PAGE.md` anywhere, or a path in backticks in a Markdown page, that does not exist.
-/// section: `docs/PAGE.md, section N` where that page has no heading `## N.`.
+/// section: `docs/PAGE.md, section N` where that page has no heading `## N.`, `docs/PAGE.md, "H"` without H.
 /// kind: what a method is, asked of its stages instead of its row (`stages.empty()` outside of
 /// src/model/integrator.h).
 /// option: a string of a library room that names an option of the command line (`--x`), outside of the words

@@ -25,8 +25,10 @@ TEST(TextLint, FindsEveryPlantedOffence) {
   EXPECT_THAT(
       rules_broken("src/x.h", "// Contact, spec §2.5.\n// none\n// see shared/page.md\n// (spec of balls)\n"),
       ::testing::ElementsAre("1: outside", "3: outside", "4: outside"));
-  EXPECT_THAT(rules_broken("src/x.h", "// docs/no-such-page.md\n// docs/physics.md, section 99\n"),
-              ::testing::ElementsAre("1: path", "2: section"));
+  EXPECT_THAT(rules_broken("src/x.h",
+                           "// docs/no-such-page.md\n// docs/physics.md, section 99\n"
+                           "// docs/contact.md, \"Friction\"\n// docs/contact.md, \"None\"\n"),
+              ::testing::ElementsAre("1: path", "2: section", "4: section"));
   EXPECT_THAT(rules_broken("src/x.cpp", "if (method.stages.empty())\n  solve(row->stages().empty());\n"),
               ::testing::ElementsAre("1: kind", "2: kind"));
   const std::string options = "fail(\"use --fps\");\n--count;  // \"--fps\"\nadd(\"--{}\", \"a--\", n--);\n";

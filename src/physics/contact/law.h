@@ -1,6 +1,6 @@
 #pragma once
 // Contact between bodies: the normal force and the friction of one contact, and how they are added to the
-// forces of particles (docs/contact.md, "The push", "Friction", "Order of sums").
+// forces of particles (docs/contact.md, "Normal force", "Friction", "Order of sums").
 #include <array>
 #include <cmath>
 #include <cstddef>

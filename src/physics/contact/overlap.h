@@ -1,5 +1,5 @@
 #pragma once
-// Bodies that overlap in the initial state are pushed apart slowly (docs/contact.md, "The push").
+// Bodies that overlap in the initial state are pushed apart slowly (docs/contact.md, "Normal force").
 #include <algorithm>
 #include <cstdint>
 #include <tuple>
