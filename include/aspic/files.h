@@ -1,5 +1,5 @@
 #pragma once
-// Files: states, checkpoints, and where the pictures of a film go. Formats: docs/files.md.
+// Files: states, checkpoints, and outputs of frames. Formats: docs/files.md.
 #include <cstddef>
 #include <span>
 #include <string>
@@ -58,7 +58,7 @@ struct Sample {
   std::string_view warnings = {};  ///< of the run so far, as the JSON of docs/exports.md; empty: none
 };
 
-/// Width and height of a picture [pixels].
+/// Width and height of a frame or image [pixels].
 struct PictureSize {
   int width = 1280;  ///< ≥ 1
   int height = 720;  ///< ≥ 1
@@ -66,11 +66,11 @@ struct PictureSize {
 };
 
 struct FilmFormat;  // of the library's table
-/// The format of pictures or films with that name or ending, in any case: "png", "jpg", "mp4", …; null if
+/// The format of images or videos with that name or ending, in any case: "png", "jpg", "mp4", …; null if
 /// there is none.
 ASPIC_API const FilmFormat* find_film_format(std::string_view word);
 
-/// Takes the pictures of a run in order. One that is destroyed before finish() leaves nothing that looks
+/// Takes the frames of a run in order. One that is destroyed before finish() leaves nothing that looks
 /// complete. A Recorder calls write() and finish() on its own encoding thread, one at a time.
 class ASPIC_API FrameSink {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// Runs: which backend computes, what is written and filmed while it does.
+// Runs: backends, output files, and recording of videos and images.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -76,15 +76,15 @@ struct StateOutput {
   std::optional<std::uint64_t> every;  ///< steps, ≥ 1; absent: what the format has
 };
 
-/// Pictures of a run.
+/// Images, videos and pages of a run.
 struct PictureOutput {
   std::string video, frames;  ///< file and directory; empty: none
   std::string page;           ///< HTML file for browsers; empty: none
   std::string page_live;      ///< one that simulates the run in the browser; empty: none
   const FilmFormat* frames_format = find_film_format("png");  ///< of `frames`
-  std::optional<double> fps;  ///< pictures per second shown, > 0; absent: what the formats have
+  std::optional<double> fps;  ///< frames per second shown, > 0; absent: those of the format
   double speed = 1.0;         ///< simulated seconds per second shown, > 0
-  PictureSize size;           ///< of films and pictures
+  PictureSize size;           ///< of frames
   bool text = true;           ///< parameters and time are written on them
 
   /// Whether anything is drawn: a page is not.
@@ -125,10 +125,10 @@ class ASPIC_API RunFiles {
   Status finish(const Sample& last);
   /// The first failure of each file so far. States in files of their own are tried again the next time.
   const std::vector<Error>& failures() const;
-  /// Whether the run writes anything besides pictures that is not lost.
+  /// Whether any output besides images and videos is not lost.
   bool any_left() const;
 
-  /// Hands over the sinks of the pictures.
+  /// Hands over the sinks of frames.
   std::vector<std::unique_ptr<FrameSink>> take_frame_sinks();
   /// Names of the completed files.
   const std::vector<std::string>& written() const;
@@ -177,12 +177,12 @@ class ASPIC_API RunWatch {
 struct FrameTimes {
   std::uint64_t frames = 0;                                     ///< how many
   double simulate = 0.0, draw = 0.0, read = 0.0, encode = 0.0;  ///< in each stage [s]
-  /// The share of one picture in a total [s]; 0 without any.
+  /// The share of one frame in a total [s]; 0 without any.
   double per_frame(double total) const { return frames > 0 ? total / static_cast<double>(frames) : 0.0; }
 };
 
-/// Pictures of a run while it runs, without a window. All calls, and the destructor, on the thread that made
-/// it: that of the solver where this is a gpu one.
+/// Records frames of a run while it runs, without a window. All calls, and the destructor, on the thread that
+/// made it: that of the solver where this is a gpu one.
 class ASPIC_API Recorder {
  public:
   /// Draws where a gpu backend's state lies, else in a separate headless context; the sinks have the size of
@@ -196,14 +196,14 @@ class ASPIC_API Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// The step that the next picture shows; after the last one, a step that no run reaches.
+  /// The step that the next frame shows; after the last one, a step that no run reaches.
   std::uint64_t next_step() const;
-  /// The solver is at `step` ≤ next_step(): draws every picture that shows it. Error: also that of the
+  /// The solver is at `step` ≤ next_step(): renders every frame that shows it. Error: also that of the
   /// encoder, as soon as all outputs are lost.
   Status reach(Solver& solver, std::uint64_t step);
-  /// The run ended at `step`, perhaps early: its state is in the last picture, and the outputs are completed.
+  /// The run ended at `step`, perhaps early: its state is in the last frame, and the outputs are completed.
   Status finish(Solver& solver, std::uint64_t step);
-  /// Ends without films, instead of finish(); pictures in directories stay.
+  /// Ends without videos, instead of finish(); frames in directories stay.
   void abandon();
   /// Of the outputs that are lost so far; the others continue.
   std::vector<Error> failures() const;
@@ -222,8 +222,8 @@ class ASPIC_API Recorder {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Single pictures of a backend's states, without a window. All calls, and the destructor, on the thread that
-/// made it: that of the solver where this is a gpu one.
+/// Renders single images of a backend's states, without a window. All calls, and the destructor, on the
+/// thread that made it: that of the solver where this is a gpu one.
 class ASPIC_API StillPainter {
  public:
   /// Draws the backend's model, which must outlive it, where a Recorder would. Errors: its create()'s.
@@ -232,9 +232,9 @@ class ASPIC_API StillPainter {
   StillPainter(const StillPainter&) = delete;
   StillPainter& operator=(const StillPainter&) = delete;
 
-  /// The state that the solver has, as `view` and as a film's picture shows it, with every ball as it is
+  /// The state that the solver has, as `view` and as a video's frame shows it, with every ball as it is
   /// turned at the start: height·width·3 bytes as FrameSink::write() has them. `text`: parameters, time and
-  /// scales are written on it. Errors: scene_rejected, the picture is larger than the device draws or its
+  /// scales are written on it. Errors: scene_rejected, the image is larger than the device renders or its
   /// memory; no_device, as Solver::advance().
   Result<std::vector<std::byte>> draw(const ViewSettings& view, const PictureSize& size, bool text = true);
 

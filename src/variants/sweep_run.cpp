@@ -27,7 +27,7 @@ class Texts {
   Fnv1a128 hash_;
 };
 
-/// What moves, as text: neither names nor pictures, nor the duration, since steps are counted.
+/// The settings of motion as text, without names and view, and without the duration, since steps are counted.
 std::string motion_text(const Scene& scene) {
   Scene motion;
   motion.model = scene.model;
