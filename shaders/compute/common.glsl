@@ -1,7 +1,6 @@
 // What every kernel of the solver shares: arithmetic whose order of operations is fixed (docs/determinism.md).
 #include "compute/dispatch.glsl"
 #include "compute/exact.glsl"
-#include "compute/terms/body_force.glsl"
 
 // (aₓbₓ + a_y b_y) + a_z b_z
 float dot3(vec3 a, vec3 b) {
@@ -20,6 +19,8 @@ float norm3(vec3 a) {
   precise float root = exact_sqrt(dot3(a, a));
   return root;
 }
+
+#include "compute/terms/body_force.glsl"
 
 // Whether item i of `count` counts itself.
 bool is_counted(uint i, uint count) { return i % COUNTED_ITEMS == 0u || i + 1u == count; }

@@ -1,4 +1,4 @@
-// The contacts of a point with a body where a stage evaluates its forces: the first, then second sides, each with its push.
+// The contacts of a point with a body where a stage evaluates its forces: the first, then second sides, each with its normal force.
 // The candidates are those triangles near the point whose boxes, widened by a margin, hold it at the start of the step. The
 // host sees to it that lists are short enough for thirteen walks over one.
 // NVIDIA's compiler takes twice as long otherwise. Others ignore it.

@@ -1,5 +1,5 @@
-// Adds the pushes of contacts to the forces of a particle; with them, the velocity v₁ with which the step would end, and how
-// much of the pushes S falls to the particle, which friction goes by.
+// Adds the normal forces of contacts to the forces of a particle; with them, the velocity v₁ with which the step would end, and how
+// much of the normal forces S falls to the particle, which friction goes by.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"

@@ -1,14 +1,14 @@
-// The contacts of a point with a body: the first, then second sides, each with its push. An includer has body_contact_time, the
+// The contacts of a point with a body: the first, then second sides, each with its normal force. An includer has body_contact_time, the
 // places start_place(i) and stage_place(i) of particles, stage_velocity(i), at_end(), triangles and words.
 #include "compute/contact_query.glsl"
 
-// Where pushes begin by now of bodies that overlapped in the initial state.
+// Where normal forces begin by now of bodies that overlapped in the initial state.
 float back_of(CandidateGroup of) {
   precise float back = of.start_distance + of.spacing * body_contact_time;
   return back;
 }
 
-// The push of k·(ρ − d), were there no motion; of one where a step may end, in which there is motion already.
+// The normal force k·(ρ − d), were there no motion; of one where a step may end, in which there is motion already.
 float rest_of(CandidateGroup of, float d, float u) {
   precise float back = back_of(of);
   precise float reach = back < of.reach ? back : of.reach;

@@ -1,5 +1,5 @@
 // What contacts give a particle: as a carrier first, then as a corner, contacts ascending. An includer defines TAKE(weight,
-// record), which adds a contact's part to a carrier, and GIVE(weight, record) for a corner; both expect contacts that push.
+// record), which adds a contact's part to a carrier, and GIVE(weight, record) for a corner; both expect contacts with a normal force.
 // The host bounds both lists.
 #ifndef COUNTS  // whether a contact counts
 #define COUNTS(record) (records[record].normal.w > 0.0)

@@ -1,5 +1,5 @@
-// Implicit Euler: the contacts of a point with a body, where a step begins, and again where its first solve ended; what pushes
-// there is known as a function of the velocities at the step's end, of which k·h times the normal one is taken off.
+// Implicit Euler: the contacts of a point with a body, where a step begins, and again where its first solve ended; their normal
+// force is a function of the velocities at the step's end, of which k·h times the normal one is taken off.
 // NVIDIA's compiler takes twice as long otherwise. Others ignore it.
 #pragma optionNV(unroll none)
 #include "compute/layout.glsl"

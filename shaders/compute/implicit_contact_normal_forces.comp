@@ -1,4 +1,4 @@
-// Implicit Euler: pushes of contacts on a particle where they were found, and with them the velocity v₁ with which the step
+// Implicit Euler: normal forces of contacts on a particle where they were found, and with them the velocity v₁ with which the step
 // would end, and the particle's share in them, w·S: what friction begins with.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"

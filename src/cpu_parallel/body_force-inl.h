@@ -19,23 +19,25 @@ struct BodyForce {
 
   /// The same in all lanes.
   HWY_INLINE explicit BodyForce(const physics::BodyForce<float>& of)
-      : gravity{hn::Set(tag, of.gravity.x()), hn::Set(tag, of.gravity.y()), hn::Set(tag, of.gravity.z())},
-        drag(hn::Set(tag, of.drag)) {}
+      : BodyForce(0, [&](const auto& constant) { return hn::Set(tag, constant(of)); }) {}
   /// That of each lane.
-  HWY_INLINE explicit BodyForce(const physics::BodyForce<float>* of) {
-    const auto each = [&](const auto& constant) {
-      alignas(64) float values[lanes];
-      for (std::size_t lane = 0; lane < lanes; ++lane) values[lane] = constant(of[lane]);
-      return hn::Load(tag, values);
-    };
-    using Of = const physics::BodyForce<float>&;
-    gravity = {each([](Of f) { return f.gravity.x(); }), each([](Of f) { return f.gravity.y(); }),
-               each([](Of f) { return f.gravity.z(); })};
-    drag = each([](Of f) { return f.drag; });
-  }
+  HWY_INLINE explicit BodyForce(const physics::BodyForce<float>* of)
+      : BodyForce(0, [&](const auto& constant) {
+          alignas(64) float values[lanes];
+          for (std::size_t lane = 0; lane < lanes; ++lane) values[lane] = constant(of[lane]);
+          return hn::Load(tag, values);
+        }) {}
 
   HWY_INLINE Vector at(Float m, const Vector& v) const { return m * gravity - hn::Mul(drag, m) * v; }
   HWY_INLINE Float implicit_mass(Float m, Float h) const { return hn::Add(m, hn::Mul(h, hn::Mul(drag, m))); }
+
+ private:
+  using Of = const physics::BodyForce<float>&;
+  template <class Each>
+  HWY_INLINE BodyForce(int, const Each& each)
+      : gravity{each([](Of f) { return f.gravity.x(); }), each([](Of f) { return f.gravity.y(); }),
+                each([](Of f) { return f.gravity.z(); })},
+        drag(each([](Of f) { return f.drag; })) {}
 };
 
 }  // namespace

@@ -122,8 +122,8 @@ bool iterate(System& system, Trial<T> at, const SolveLimits<T>& limits, SolveRep
 /// Solves for v' from the velocity v on. The system offers, besides what iterate() asks for,
 ///   Trial<T> start()  the base and the trial are v
 ///   Trial<T> fall()   the trial becomes v + h·g, but v of pinned particles
-///   bool touches()    whether bodies are near each other in the step
-///   Trial<T> update_contacts(bool from_trial)  the trial stays, or becomes the base; bodies touch as found
+///   bool contacts()    whether bodies are near each other in the step
+///   Trial<T> update_contacts(bool from_trial)  the trial stays, or becomes the base; contacts as found
 ///   there
 ///                     from now on
 /// Returns whether the solution is the last trial; else it is the base.

@@ -32,7 +32,7 @@ bool is_forbidden(const std::string& t) {
       "acos",        "atan",      "sinh",        "cosh",         "tanh",
       "asinh",       "acosh",     "atanh",       "mod",          "modf",
       "radians",     "degrees",   "determinant", "outerProduct", "matrixCompMult",
-      "inverse"};
+      "inverse",     "sqrt"};
   return names.contains(t);
 }
 
@@ -124,7 +124,7 @@ class Linter {
   void check_call() {
     if (text(1) != "(" || text(-1) == ".") return;
     const bool device = path_ == "compute/device_arithmetic.glsl";
-    if (is_forbidden(text()) && !(device && text() == "inversesqrt")) offend("forbidden", at_);
+    if (is_forbidden(text()) && !(device && text().ends_with("sqrt"))) offend("forbidden", at_);
     if (text() == "fma" && !device) offend("fma", at_);
     if (in_code()) check_arguments();
   }

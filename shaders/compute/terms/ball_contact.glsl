@@ -40,9 +40,9 @@ Impulse impact(vec3 n, vec3 dv, vec3 dv_0, vec3 rolling, float weight, float sli
   precise vec3 turning = vec3(0.0);
   if (ball_spin != 0u) {
     precise vec3 s = (dv - u * n) - cross3(rolling, n);
-    precise vec4 rub = friction_impulse(s, J, ball_friction, slip_weight);
-    linear = linear - rub.w * rub.xyz;
-    turning = rub.w * cross3(n, rub.xyz);
+    precise vec4 friction = friction_impulse(s, J, ball_friction, slip_weight);
+    linear = linear - friction.w * friction.xyz;
+    turning = friction.w * cross3(n, friction.xyz);
   }
   return Impulse(linear, turning);
 }

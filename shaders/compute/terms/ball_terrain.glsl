@@ -12,11 +12,11 @@ vec4 ball_gap(uint t, uint end, float radius, vec3 x) {
 void apply_ball_friction(uint t, Ball start, BallBody body, float gain, vec3 n, inout precise vec3 v_t,
               inout precise vec3 omega) {
   precise vec3 s = v_t - start.position.w * cross3(omega, n);
-  precise float push = body.ball_mass * gain;
+  precise float normal_impulse = body.ball_mass * gain;
   precise float weight = body.ball_inverse_mass + start.start_velocity.w;
-  precise vec4 rub = friction_impulse(s, push, terrains[t].friction, weight);
-  v_t = v_t - (body.ball_inverse_mass * rub.w) * rub.xyz;
-  omega = omega + (start.spin.w * rub.w) * cross3(n, rub.xyz);
+  precise vec4 friction = friction_impulse(s, normal_impulse, terrains[t].friction, weight);
+  v_t = v_t - (body.ball_inverse_mass * friction.w) * friction.xyz;
+  omega = omega + (start.spin.w * friction.w) * cross3(n, friction.xyz);
 }
 
 void respond_ball_course(uint t, Ball start, BallBody body, vec3 x, inout precise vec3 v, inout precise vec3 omega) {

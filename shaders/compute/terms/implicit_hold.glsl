@@ -45,11 +45,11 @@ bool between_two(vec3 x, vec3 v, bool last, inout Reaction r) {
   precise float short_b = c_b - dot3(v, b.xyz);
   precise float lack_a = short_a - cosine * short_b;
   precise float lack_b = short_b - cosine * short_a;
-  precise float push_a = exact_div(lack_a, sine2);
-  precise float push_b = exact_div(lack_b, sine2);
-  if (!last && (push_a < 0.0 || push_b < 0.0)) return false;
-  precise float loss_a = terrains[i].friction * (push_a > 0.0 ? push_a : 0.0);
-  precise float loss_b = terrains[j].friction * (push_b > 0.0 ? push_b : 0.0);
+  precise float normal_a = exact_div(lack_a, sine2);
+  precise float normal_b = exact_div(lack_b, sine2);
+  if (!last && (normal_a < 0.0 || normal_b < 0.0)) return false;
+  precise float loss_a = terrains[i].friction * (normal_a > 0.0 ? normal_a : 0.0);
+  precise float loss_b = terrains[j].friction * (normal_b > 0.0 ? normal_b : 0.0);
   precise float loss = loss_a + loss_b;
   precise float q = exact_div(1.0, exact_sqrt(sine2));
   precise vec3 axis = q * line;

@@ -280,7 +280,7 @@ void Balls<T, Search>::add_near(const Search<T>& search, const BallPhase<T>& bal
   for (const std::uint32_t b : near_) contacts.add(b, gap_to(b).d < T(0));
 }
 
-/// The particles' pairs once more, ball by ball: partners are numbers in touching_. Particles come in
+/// The particles' pairs once more, ball by ball: partners are numbers in in_contact_. Particles come in
 /// ascending index, so they do in each ball's list.
 template <class T, template <class> class Search>
 void Balls<T, Search>::list_particles_of_balls() {
@@ -391,16 +391,17 @@ void Balls<T, Search>::separate(BallPhase<T>& balls, const ParticleView<T>& part
   const auto particle_weight = [&](std::uint32_t n) {
     return number(c_particle[n]) * particle_weight_[in_contact_[n]];
   };
-  const auto push = [](const Gap<T>& gap, T weight) { return Vector<T>((-gap.d / weight) * gap.n); };
+  const auto correction = [](const Gap<T>& gap, T weight) { return Vector<T>((-gap.d / weight) * gap.n); };
   std::vector<std::pair<std::uint32_t, Vector<T>>> on_ball, on_particle;
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (c_ball[b] == 0) continue;
     PartnerSum<Vector<T>> sum(Vector<T>::Zero());
     for_each(ball_ball_, ball_ball_.overlap, b, [&](std::uint32_t other) {
-      sum.add(push(between_balls(balls, b, other), ball_weight(b) + ball_weight(other)));
+      sum.add(correction(between_balls(balls, b, other), ball_weight(b) + ball_weight(other)));
     });
     for_each(ball_particle_, ball_particle_.overlap, b, [&](std::uint32_t n) {
-      sum.add(push(from_ball(balls, particles, b, in_contact_[n]), ball_weight(b) + particle_weight(n)));
+      sum.add(
+          correction(from_ball(balls, particles, b, in_contact_[n]), ball_weight(b) + particle_weight(n)));
     });
     on_ball.push_back({b, sum.total()});
   }
@@ -409,7 +410,7 @@ void Balls<T, Search>::separate(BallPhase<T>& balls, const ParticleView<T>& part
     if (c_particle[n] == 0 || particle_weight_[p] == T(0)) continue;
     PartnerSum<Vector<T>> sum(Vector<T>::Zero());
     for_each(particle_ball_, particle_ball_.overlap, n, [&](std::uint32_t b) {
-      sum.add(push(from_particle(balls, particles, p, b), ball_weight(b) + particle_weight(n)));
+      sum.add(correction(from_particle(balls, particles, p, b), ball_weight(b) + particle_weight(n)));
     });
     on_particle.push_back({p, sum.total()});
   }

@@ -1,8 +1,8 @@
 #pragma once
 // Contact between bodies inside the equation of implicit Euler (docs/contact.md, "Implicit Euler"). Contacts
-// are found where a step begins, and again where its first solve ends; their pushes and friction are
-// functions of the velocities v' at its end, and linear but for where a push begins and a cone ends. Every
-// expression has one order of operations, which the kernels follow
+// are found where a step begins, and again where its first solve ends; their normal forces and friction are
+// functions of the velocities v' at its end, and linear but for where a normal force begins and a cone ends.
+// Every expression has one order of operations, which the kernels follow
 // (shaders/compute/implicit_contact_react.comp).
 #include <cstdint>
 #include <span>
@@ -25,9 +25,9 @@ struct ContactResponse {
   bool acts() const { return along > T(0) || across > T(0); }
 };
 
-/// Where the step would end with relative velocity r of the point: with a push of f = max(0, k·(ρ − d) −
+/// Where the step would end with relative velocity r of the point: with a normal force f = max(0, k·(ρ − d) −
 /// k·h·u) and friction p, which begins with that of the explicit methods and gives way like a spring of the
-/// push's stiffness.
+/// normal force's stiffness.
 template <class T>
 void answer(const ContactPoint<T>& contact, const Vector<T>& r, T h, ContactResponse<T>& out) {
   const T stiffness = h * contact.c;
@@ -71,7 +71,7 @@ class ImplicitContact {
 
   Search& search() { return contact_; }
 
-  /// A step from the state of this number begins. Returns whether anything is near enough to touch in it.
+  /// A step from the state of this number begins. Returns whether any bodies may be in contact in it.
   /// `force(p)`: gravity, springs and pulls where the step begins [N], inverse_mass(p) [1/kg], of a particle.
   template <class Force, class InverseMass, class... Run>
   bool start(std::uint64_t step, const Particles& start, const Force& force, const InverseMass& inverse_mass,

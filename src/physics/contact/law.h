@@ -70,7 +70,7 @@ void for_sums(std::span<const ContactPoint<T>> contacts, const Carrier& carrier,
     for (std::size_t n = 2; n < 5; ++n) corner(contact, contact.place[n], contact.weight[n]);
 }
 
-/// Adds weight·force(touch) to what carries a point, and takes it from the corners of the triangle.
+/// Adds weight·force(contact) to what carries a point, and takes it from the corners of the triangle.
 template <class T, class Force>
 void spread(std::span<const ContactPoint<T>> contacts, std::vector<Vector<T>>& f, const Force& force) {
   for_sums<T>(

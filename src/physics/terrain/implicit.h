@@ -105,7 +105,7 @@ class GroundAhead {
   /// P of particle i, of mass m, with free velocity v [m/s]. Terrains take their turns in file order. One
   /// that the velocity left so far would cross joins the fewest of those that hold the particle already with
   /// which none is crossed and none pulls: without friction, the nearest velocity that crosses none. A second
-  /// round checks whether a later terrain has pushed the particle through an earlier one. Of terrains that
+  /// round checks whether a later terrain has moved the particle through an earlier one. Of terrains that
   /// are one surface to the particle, the one that outranks the others holds it.
   GroundReaction<T> react(Eigen::Index i, T m, const Vector<T>& v) const {
     return react_to(&gaps_[static_cast<std::size_t>(i) * grounds_->size()], m, v);
@@ -234,10 +234,10 @@ class GroundAhead {
     const std::size_t i = out.held[0], j = out.held[1];
     const T c_a = least_speed(gaps, i), c_b = least_speed(gaps, j);
     const T short_a = c_a - dot3<T>(v, a.n), short_b = c_b - dot3<T>(v, b.n);
-    const T push_a = (short_a - cosine * short_b) / sine2, push_b = (short_b - cosine * short_a) / sine2;
-    if (!last && (push_a < T(0) || push_b < T(0))) return false;
-    const T loss_a = (*grounds_)[i].friction * (push_a > T(0) ? push_a : T(0));
-    const T loss_b = (*grounds_)[j].friction * (push_b > T(0) ? push_b : T(0));
+    const T normal_a = (short_a - cosine * short_b) / sine2, normal_b = (short_b - cosine * short_a) / sine2;
+    if (!last && (normal_a < T(0) || normal_b < T(0))) return false;
+    const T loss_a = (*grounds_)[i].friction * (normal_a > T(0) ? normal_a : T(0));
+    const T loss_b = (*grounds_)[j].friction * (normal_b > T(0) ? normal_b : T(0));
     out.axis = (T(1) / std::sqrt(sine2)) * line;
     const bool moves = (*grounds_)[i].end.moves || (*grounds_)[j].end.moves;
     const T still = moves ? speed_along(out.axis, i, j, loss_a, loss_b) : T(0);

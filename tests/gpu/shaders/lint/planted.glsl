@@ -34,7 +34,7 @@ float signed_off(float m) {
 }
 
 float rooted(float m) {
-  return sqrt(m);  // offence: inexact-return
+  return sqrt(m);  // offence: inexact-return forbidden
 }
 
 uint counted(uint a, uint b) {
