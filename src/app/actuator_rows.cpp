@@ -57,7 +57,8 @@ void name_boxes(Gui& gui, SceneControl& scene, const char* path, std::size_t i, 
   if (all.empty()) return;
   group_heading(heading);
   const std::string key = path_text(path, i),
-                    help = fmt::format("{} None ticked: {}.\n\nScene key: {}", p.meaning, p.when_absent, key);
+                    help = fmt::format("{} Tick none for the default: {}.\n\nScene key: {}", p.meaning,
+                                       p.when_absent, key);
   Names ticked = names_of(scene.scene(), path, i);
   bool changed = false;
   ImGui::PushID(key.c_str());
@@ -74,11 +75,10 @@ void input_now(Gui& gui, PlaybackSession& simulation, const std::string& name, s
   const auto channel = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
   double w = channel < inputs.channels.size() ? inputs.channels[channel] : 0.0;
   const double before = w;
-  slider(
-      gui, "Input now", fmt::format("actuator/{}/input", i), w, -1.0, 1.0, "%.2f",
-      "The signal w of this actuator, from the next step on. A reset takes it back to 0, or to the log that "
-      "is replayed.",
-      false);
+  slider(gui, "Input now", fmt::format("actuator/{}/input", i), w, -1.0, 1.0, "%.2f",
+         "Sets the signal w of this actuator from the next step on. Reset sets it to 0, or to the replayed "
+         "inputs.",
+         false);
   if (w != before) simulation.stepper().acts().channels[name] = w;
 }
 
@@ -86,7 +86,7 @@ void input_now(Gui& gui, PlaybackSession& simulation, const std::string& name, s
 bool actuator(Gui& gui, SceneControl& scene, PlaybackSession& simulation, const SettingsList& list,
               std::size_t i) {
   if (element_line(gui, fmt::format("actuator {}", i), fmt::format("actuator/{}/remove", i),
-                   "Removes this actuator; the bodies stay.\n\nScene key: [[actuator]]", true)) {
+                   "Removes this actuator and keeps its bodies.\n\nScene key: [[actuator]]", true)) {
     scene.change("remove actuator", [&](Scene& s) { list.remove(s.model, i); });
     return true;
   }
@@ -113,12 +113,11 @@ void add_actuator_button(Gui& gui, SceneControl& scene, std::string_view key, st
   const SettingsList* const list = actuators();
   if (!list) return;
   const std::string name = body_name(scene.scene(), key, i);
-  if (!button(gui, fmt::format("{}/{}/actuator", key, i).c_str(), "Add an actuator",
-              fmt::format(
-                  "Makes rest lengths of {} follow a signal, which its rows below describe.\n\nScene key: "
-                  "[[actuator]]",
-                  printable_line(name)),
-              true, -1.0f))
+  if (!button(
+          gui, fmt::format("{}/{}/actuator", key, i).c_str(), "Add an actuator",
+          fmt::format("Adds an actuator to {}: its signal changes rest lengths.\n\nScene key: [[actuator]]",
+                      printable_line(name)),
+          true, -1.0f))
     return;
   scene.change("add actuator", [&](Scene& s) {
     list->append(s.model);

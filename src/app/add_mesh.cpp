@@ -34,7 +34,7 @@ std::string keep_stable(const Scene& before, Scene& after) {
   const double usual = usual_timestep(limit, timestep);
   if (!(usual < timestep)) return "";
   const double own = std::exchange(timestep, usual);
-  return fmt::format(" The time step is {:.4g} s now: at {:.4g} s the body would not be stable.", usual, own);
+  return fmt::format(" The time step is now {:.4g} s: at {:.4g} s the body would be unstable.", usual, own);
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ void add_mesh(SceneControl& scene, Messages& messages, const std::string& path) 
   const std::size_t bodies = scene.scene().model.voxels.size();
   scene.apply(std::move(changed), "add mesh");
   if (scene.scene().model.voxels.size() == bodies) return;  // refused, for want of memory
-  std::string text = printable_line(std::filesystem::path(path).filename().string()) + " is a body now";
+  std::string text = printable_line(std::filesystem::path(path).filename().string()) + " is now a body";
   for (const std::string& note : *notes)
     text += fmt::format("{} {}", &note == &notes->front() ? ":" : ";", note);
   scene.tell(text + "." + step);

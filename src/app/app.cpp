@@ -145,15 +145,15 @@ void App::restore(const KeptState& kept, const std::vector<std::string>& overrid
   if (std::ranges::none_of(overrides, sets_camera)) view.recall_camera(scene.editor().source());
   if (!std::exchange(greeted_, true))
     messages.greet(
-        "Space starts and pauses. Drag to turn the view, the wheel zooms. Ctrl+drag pulls a body, B throws a "
-        "ball. F1 shows all keys, Ctrl+P finds everything by name.",
+        "Space starts and pauses. Drag turns the view, the wheel zooms. Ctrl+drag pulls a body, B throws a "
+        "ball. F1 lists all keys, Ctrl+P searches everything by name.",
         20.0);
   else if (simulation.pacer().speed() != 1.0)
-    messages.info(fmt::format("The speed is ×{:g}, as it was left: + and - change it.{}",
+    messages.info(fmt::format("The speed is ×{:g}, from the last session: + and - change it.{}",
                               simulation.pacer().speed(), layout.panels ? "" : " Tab shows the panels."),
                   10.0);
   else if (!layout.panels)
-    messages.info("Tab shows the panels, F1 all keys.");
+    messages.info("Tab shows the panels, F1 lists all keys.");
 }
 
 KeptState App::kept_state() const {

@@ -23,8 +23,7 @@ std::vector<Command> App::make_commands() {
   const auto reset = [this] {
     run.reset();
     if (messages.check(simulation.refresh_snapshot()) && !view.sees_bodies(simulation.snapshot()))
-      messages.info(
-          "The bodies are outside the picture: Home shows the scene's camera, F frames the bodies.");
+      messages.info("The bodies are outside the image: Home resets the camera, F frames the bodies.");
   };
   const auto toggle = [this] {
     if (!comparison.clock().toggle()) run.toggle();
@@ -104,9 +103,9 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0,
        [this] { copy_camera(view, gui_->services(), messages); }},
       {"Ctrl+V", "paste a camera", GLFW_KEY_V, ctrl, 0, paste},
-      {"A", "axes in a corner of the picture", GLFW_KEY_A, 0, 0, axes},
+      {"A", "axes in a corner of the image", GLFW_KEY_A, 0, 0, axes},
       {"O", "orthographic or perspective", GLFW_KEY_O, 0, 0, [this] { view.camera.change_projection(); }},
-      {"X", "cut the bodies open: section, springs, not at all", GLFW_KEY_X, 0, 0, cut},
+      {"X", "section: cut through the bodies, springs, off", GLFW_KEY_X, 0, 0, cut},
       {"", "Window and files"},
       {"L", "next layout", GLFW_KEY_L, 0, 0, [this] { layout.choose_next(); }},
       {"Tab", "hide or show the panels", GLFW_KEY_TAB, 0, 0, [this] { layout.panels = !layout.panels; }},
@@ -118,8 +117,8 @@ std::vector<Command> App::make_commands() {
        GLFW_KEY_KP_SUBTRACT},
       {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { open_page(help_visible ? Page::none : Page::help); }},
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
-      {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
-      {"F12", "save the picture", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::picture; }},
+      {"Ctrl+R", "start or end a video", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
+      {"F12", "save the image", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::picture; }},
       {"Shift+F12", "save the complete window", GLFW_KEY_F12, shift, 0,
        [this] { shot_wanted_ = Shot::window; }},
   };

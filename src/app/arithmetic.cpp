@@ -19,10 +19,10 @@ class Line {
 
   Result<double> value() {
     ASPIC_TRY(const double all, sum());
-    if (next() == ')') return wrong("this parenthesis was not opened");
-    if (next() != 0) return wrong("between two numbers + - * or / is missing");
+    if (next() == ')') return wrong("this parenthesis has no opening one");
+    if (next() != 0) return wrong("an operator + - * or / is missing between two numbers");
     at_ = 0;
-    if (!std::isfinite(all)) return wrong("this is not a finite number");
+    if (!std::isfinite(all)) return wrong("the result is not a finite number");
     return all;
   }
 
@@ -35,7 +35,7 @@ class Line {
     return at_ < text_.size() ? text_[at_] : '\0';
   }
   Error wrong(std::string_view what) const {
-    return {ErrorCode::usage, fmt::format("The number stays as it was: {}.\n{}\n{}^", what, printable(text_),
+    return {ErrorCode::usage, fmt::format("The number is unchanged: {}.\n{}\n{}^", what, printable(text_),
                                           std::string(at_, ' '))};
   }
 
@@ -58,7 +58,7 @@ class Line {
       if (sign == '/' && right == 0.0) {
         at_ = divisor;
         next();
-        return wrong("this divides by 0");
+        return wrong("division by 0");
       }
       left = sign == '*' ? left * right : left / right;
     }
@@ -67,7 +67,7 @@ class Line {
 
   Result<double> factor() {
     const char first = next();
-    if (++depth_ > deepest) return wrong("too many parentheses or signs within one another");
+    if (++depth_ > deepest) return wrong("parentheses or signs are nested too deeply");
     double value = 0.0;
     if (first == '+' || first == '-') {
       ++at_;
@@ -76,7 +76,7 @@ class Line {
     } else if (first == '(') {
       ++at_;
       ASPIC_TRY(value, sum());
-      if (next() != ')') return wrong("here a closing parenthesis is missing");
+      if (next() != ')') return wrong("a closing parenthesis is missing here");
       ++at_;
     } else {
       ASPIC_TRY(value, number());
@@ -86,14 +86,14 @@ class Line {
   }
 
   Result<double> number() {
-    if (at_ == text_.size()) return wrong("here a number is missing");
+    if (at_ == text_.size()) return wrong("a number is missing here");
     double value = 0.0;
     const bool digit = text_[at_] == '.' || (text_[at_] >= '0' && text_[at_] <= '9');  // no "inf", no "nan"
     const auto read = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (!digit || read.ec == std::errc::invalid_argument) return wrong("here a number is expected");
-    if (read.ec != std::errc()) return wrong("this number is too large or too small");
+    if (!digit || read.ec == std::errc::invalid_argument) return wrong("expected a number here");
+    if (read.ec != std::errc()) return wrong("this number is out of range");
     at_ = static_cast<std::size_t>(read.ptr - text_.data());
-    if (at_ < text_.size() && text_[at_] == ',') return wrong("decimals are written with a point, as in 1.5");
+    if (at_ < text_.size() && text_[at_] == ',') return wrong("decimals need a point, as in 1.5");
     return value;
   }
 

@@ -25,7 +25,7 @@ std::string memory_note(const Solver& solver) {
       model.particle_count(), spring_count(model), human_bytes(model_bytes(model)),
       human_bytes(state_bytes(count(model))), solver.backend(), human_bytes(solver.bytes()));
   if (const auto free = available_memory())
-    note += fmt::format(" {} of memory are free; a scene that does not fit is refused.", human_bytes(*free));
+    note += fmt::format(" {} of memory are free; Aspic rejects scenes that need more.", human_bytes(*free));
   return note + " Particles grow with the third power of the particles per edge.";
 }
 
@@ -41,7 +41,7 @@ bool body_line(Gui& gui, SceneControl& scene, const SettingsList& list, std::siz
   const std::string name = noun_of(list.key);
   const std::string help =
       last_body
-          ? "The last body cannot be removed: without one, nothing would move."
+          ? "Keeps the last body: a scene needs at least one."
           : fmt::format("Removes this {}. Restarts the simulation.\n\nScene key: [[{}]]", name, list.key);
   if (!element_line(gui, fmt::format("{} {}", name, i), fmt::format("{}/{}/remove", list.key, i), help,
                     !last_body))
@@ -91,8 +91,8 @@ void add_buttons(Gui& gui, SceneControl& scene, CellEditor& cells) {
     const bool box = std::string_view(kind.name) == "box";
     const std::string noun = box ? "box" : noun_of(list.key);
     const std::string help =
-        fmt::format("Adds a {}{} where it is in nobody's way. Restarts the simulation.\n\nScene key: [[{}]]",
-                    noun, list.size(scene.scene().model) > 0 && !box ? ", like the last one," : "", list.key);
+        fmt::format("Adds a {}{} in free space. Restarts the simulation.\n\nScene key: [[{}]]", noun,
+                    list.size(scene.scene().model) > 0 && !box ? ", like the last one," : "", list.key);
     if (!button(gui, fmt::format("{}/add", kind.name).c_str(), kind.label, help, true, width)) continue;
     if (box)
       scene.change("add box", [](Scene& s) { add_box(s); });
@@ -102,17 +102,16 @@ void add_buttons(Gui& gui, SceneControl& scene, CellEditor& cells) {
     cells.choose_body(list.size(scene.scene().model) - 1);
   }
   if (column % columns != 0) ImGui::SameLine();
-  command_button(
-      gui, "mesh/add", "Mesh…",
-      "Adds the cells inside a mesh (.obj, .stl, .ply) where they are in nobody's way, with the mesh as "
-      "their skin. Dropping the file on the window does the same.\n\nScene key: [[voxels]]",
-      "add a mesh", true, width);
+  command_button(gui, "mesh/add", "Mesh…",
+                 "Fills a mesh (.obj, .stl, .ply) with cells, in free space. Dropping the file on the window "
+                 "does the same.\n\nScene key: [[voxels]]",
+                 "add a mesh", true, width);
 }
 
 /// Opens the section in which the cells of a body are edited.
 void cells_button(Gui& gui, CellEditor& cells, Layouts& layout, std::size_t i) {
   if (!button(gui, fmt::format("voxels/{}/cells", i).c_str(), "Edit its cells",
-              "Shows the body's layers under Cells, where the mouse paints them.", true, -1.0f))
+              "Shows the body's layers under Cells for painting.", true, -1.0f))
     return;
   cells.choose_body(i);
   show_section(layout, "Cells");
@@ -140,7 +139,7 @@ void shown_springs(Gui& gui, SceneControl& scene) {
   const Parameter& p = *find_parameter("view.draw");
   auto words = std::get<std::vector<std::string>>(*p.get(scene.scene(), 0));
   group_heading("Shown");
-  tooltip("Types of springs in the picture. Their colours are chosen under View.\n\nScene key: view.draw");
+  tooltip("Selects the types of springs to show. View sets their colors.\n\nScene key: view.draw");
   float end = ImGui::GetWindowContentRegionMax().x;
   for (const std::string_view type : spring_types) {
     const float width = ImGui::CalcTextSize(type.data()).x + ImGui::GetFrameHeight() +
@@ -148,9 +147,8 @@ void shown_springs(Gui& gui, SceneControl& scene) {
     // Large text needs more lines.
     if (end + width < ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
     end = ImGui::GetCursorPosX() + width;
-    const std::string help = fmt::format(
-        "Whether {} springs are in the picture. Their colours are chosen under View.\n\nScene key: view.draw",
-        type);
+    const std::string help =
+        fmt::format("Shows {} springs in the image. View sets their colors.\n\nScene key: view.draw", type);
     if (check_box(gui, type, fmt::format("springs/show/{}", type), words, help))
       scene.set_value(p, 0, Value(words));
   }
@@ -163,8 +161,8 @@ void kind_of_springs(Gui& gui, SceneControl& scene, std::size_t cube) {
   std::size_t kind = settings.material ? 1 : 0;
   label_column("Given by");
   if (!choice(gui, fmt::format("springs/{}/kind", cube), kinds, kinds, kind,
-              "Stiffness and damping of each type of spring and the mass of a particle; or a material, which "
-              "means the same jelly at every resolution.\n\nScene key: cube[].material"))
+              "Selects stiffness, damping and mass by value, or a material that is the same at every "
+              "resolution.\n\nScene key: cube[].material"))
     return;
   scene.change("material", [&](Scene& s) {
     auto& material = s.model.cubes[cube].material;
@@ -178,8 +176,8 @@ void kind_of_edges(Gui& gui, SceneControl& scene, std::size_t cube) {
   std::size_t kind = scene.scene().model.cubes[cube].particles ? 1 : 0;
   label_column("Shape");
   if (!choice(gui, fmt::format("bodies/{}/shape", cube), kinds, kinds, kind,
-              "A cube, with as many particles along every edge; or a box, whose edges differ. Restarts the "
-              "simulation.\n\nScene keys: cube[].particles-per-edge, cube[].particles"))
+              "Sets a cube with equal edges, or a box. Restarts the simulation.\n\nScene keys: "
+              "cube[].particles-per-edge, cube[].particles"))
     return;
   scene.change("shape", [&](Scene& s) {
     CubeSettings& changed = s.model.cubes[cube];
@@ -196,10 +194,9 @@ void same_for_all(Gui& gui, SceneControl& scene, std::size_t cube, std::string_v
   const Parameter& first = *find_parameter(fmt::format("cube[].structural.{}", what));
   const std::string label = fmt::format("{} (all)", capitalized(std::string(what))),
                     help = fmt::format(
-                        "One {0} for structural, shear and bending springs. Where they differ, that of the "
-                        "structural ones is "
-                        "shown.\n\nScene keys: cube[{1}].structural.{0}, "
-                        "cube[{1}].shear.{0}, cube[{1}].bending.{0}\nDrag to change, Ctrl+click to type.",
+                        "Sets one {0} for all springs. Shows that of structural springs if they "
+                        "differ.\n\nScene keys: cube[{1}].structural.{0}, cube[{1}].shear.{0}, "
+                        "cube[{1}].bending.{0}\nDrag to change, Ctrl+click to type.",
                         what, cube);
   // Not the row of the structural springs, which has the same key.
   ImGui::PushID("all");
@@ -269,12 +266,12 @@ void bodies_section(Gui& gui, SceneControl& scene, PlaybackSession& simulation, 
   for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, cells, layout, row.list);
   actuators_of_bodies(gui, scene, simulation);
   if (body_count(scene.scene().model) > 1 && !scene.scene().model.contact.bodies)
-    ImGui::TextDisabled("Bodies pass through each other: see Contact.");
+    ImGui::TextDisabled("Bodies pass through each other: enable body contact under Contact.");
 }
 
 void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
   const std::size_t count = scene.scene().model.cubes.size();
-  if (count == 0) ImGui::TextDisabled("No cube; springs of other bodies are under Bodies.");
+  if (count == 0) ImGui::TextDisabled("No cube. Bodies lists the springs of other bodies.");
   for (std::size_t i = 0; i < count; ++i) {
     ImGui::PushID(static_cast<int>(i));
     if (count > 1) group_heading(fmt::format("cube {}", i));
@@ -289,8 +286,7 @@ void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
     }
     const std::string label = count > 1 ? fmt::format("by type, cube {}", i) : std::string("by type");
     if (folded(gui, layout, "Springs", label.c_str(),
-               "Stiffness and damping of structural, shear and bending springs, and whether a material gives "
-               "them.")) {
+               "Shows stiffness and damping by type of spring, or from a material.")) {
       kind_of_springs(gui, scene, i);
       for (const std::string_view type : spring_types) {
         if (material) break;
@@ -311,8 +307,7 @@ void contact_section(Gui& gui, SceneControl& scene) {
   }
   for (std::size_t i = 0; i < scene.scene().model.terrain.size(); ++i) terrain(gui, scene, i);
   if (add_button(gui, "terrain",
-                 "Adds a terrain, a plane at its default place. Terrains act in file order. The motion "
-                 "continues."))
+                 "Adds a plane at its default place. Terrains act in file order. The motion continues."))
     scene.change("add terrain", [](Scene& s) { s.model.terrain.emplace_back(); });
 }
 

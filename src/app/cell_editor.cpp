@@ -94,7 +94,7 @@ void CellEditor::refuse(const Scene& changed) {
       voxels.pieces == Pieces::refuse && fault_of(changed.model, voxels) && !fault_of(changed.model, all);
   if (in_pieces_) {
     const auto shape = shape_of(all);
-    refusal_ = fmt::format("These cells are {} pieces that share no face, and the body is to be one.",
+    refusal_ = fmt::format("These cells form {} pieces that share no face, and the body must be one piece.",
                            std::get<VoxelShape>(shape).pieces);
   }
 }

@@ -116,10 +116,9 @@ void say_cell(const CellEditor& cells, const VoxelsSettings& voxels, const std::
 }
 
 constexpr std::string_view grid_help =
-    "The cells of the layer, seen from above. Drag with the left button to paint with the chosen material, "
-    "with the right one to erase; a middle click takes the material of a cell. Small squares are cells of "
-    "the "
-    "layer below.\n\nScene key: voxels[].layers\nA change restarts the simulation.";
+    "Shows the cells of the layer from above. Left drag paints the chosen material, right drag erases, "
+    "middle click picks a material. Small squares are cells of the layer below.\n\nScene key: "
+    "voxels[].layers\nA change restarts the simulation.";
 
 /// The layer as a grid, seen from above: back at the top, left at the left. Wide ones are scrolled.
 void grid(Gui& gui, const SceneControl& scene, CellEditor& cells) {
@@ -170,25 +169,23 @@ void grid(Gui& gui, const SceneControl& scene, CellEditor& cells) {
 void waiting(Gui& gui, CellEditor& cells) {
   if (cells.refusal().empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, waits_colour);
-  wrapped_text("Not taken yet. " + printable(cells.refusal()), ImGui::GetContentRegionAvail().x);
+  wrapped_text("Pending. " + printable(cells.refusal()), ImGui::GetContentRegionAvail().x);
   ImGui::PopStyleColor();
   gui.mark("cells/refusal");
   if (cells.in_pieces()) {
     const float half = share_of_line(2);
     if (button(gui, "cells/all", "Keep all pieces",
-               "Takes the cells as they are: the pieces move separately.\n\nScene key: voxels[].pieces", true,
-               half))
+               "Accepts the cells: the pieces move separately.\n\nScene key: voxels[].pieces", true, half))
       return cells.take_as(Pieces::all);
     ImGui::SameLine();
     if (button(gui, "cells/largest", "Keep the largest",
-               "Takes the cells; those outside the largest piece stay in the layers and are left out of the "
-               "body.\n\nScene key: voxels[].pieces",
+               "Accepts the cells, and excludes smaller pieces from the body.\n\nScene key: voxels[].pieces",
                true, half))
       return cells.take_as(Pieces::largest);
   }
   if (button(gui, "cells/back", "Take back",
-             "Takes the last stroke back. Strokes that join the cells are taken with all that waits.", true,
-             -1.0f, "undo"))
+             "Undoes the last stroke. Pending strokes apply once the cells are connected.", true, -1.0f,
+             "undo"))
     cells.take_back();
 }
 
@@ -202,12 +199,13 @@ void layer_row(Gui& gui, CellEditor& cells, int high) {
   ImGui::SliderInt("##layer", &layer, 0, std::max(high - 1, 0), fmt::format("%d of 0 … {}", high - 1).c_str(),
                    ImGuiSliderFlags_AlwaysClamp);
   ImGui::EndDisabled();
-  named(gui, "cells/layer", "The layer that is shown, counted from below, as messages count them.");
+  named(gui, "cells/layer", "Selects the layer to show, counted from 0 at the bottom.");
   ImGui::SameLine(0.0f, gap);
-  if (button(gui, "cells/down", "-", "The layer below.", layer > 0, side, "the layer of cells below"))
+  if (button(gui, "cells/down", "-", "Shows the layer below.", layer > 0, side, "the layer of cells below"))
     --layer;
   ImGui::SameLine(0.0f, gap);
-  if (button(gui, "cells/up", "+", "The layer above.", layer + 1 < high, side, "the layer of cells above"))
+  if (button(gui, "cells/up", "+", "Shows the layer above.", layer + 1 < high, side,
+             "the layer of cells above"))
     ++layer;
   if (layer != cells.layer()) cells.choose_layer(layer);
 }
@@ -237,7 +235,7 @@ void palette_row(Gui& gui, SceneControl& scene, CellEditor& cells, char cell) {
   const VoxelsSettings& voxels = settings.voxels[cells.body()];
   const std::string key = text_of(cell), name = "cells/palette/" + key;
   if (swatch(gui, name, key, cell_colour(settings, voxels, cell), cells.brush() == cell,
-             fmt::format("Paints cells '{}'. Digits choose as well, by the order of the rows.", cell)))
+             fmt::format("Paints cells '{}'. Digits select materials in the order of the rows.", cell)))
     cells.choose_brush(cell);
   ImGui::SameLine();
   if (voxels.palette.empty()) {
@@ -256,15 +254,14 @@ void palette_row(Gui& gui, SceneControl& scene, CellEditor& cells, char cell) {
   if (index == names.size()) names.push_back(own);
   const std::string before = own;
   if (choice(gui, name + "/material", names, names, index,
-             "The material of these cells; the section Materials has their numbers.\n\nScene key: "
-             "voxels[].palette"))
+             "Sets the material of these cells; Materials has its values.\n\nScene key: voxels[].palette"))
     return scene.change("palette", [&, chosen = std::string(names[index])](Scene& s) {
       s.model.voxels[cells.body()].palette[key] = chosen;
     });
   ImGui::SameLine();
   const bool used = has_cell(cells.voxels(), cell) || voxels.palette.size() == 1;
   if (button(gui, (name + "/remove").c_str(), "×",
-             used ? "Cells are of it: erase them, or choose another material for them."
+             used ? "In use. Erase its cells or choose another material for them."
                   : "Removes it from the palette; the scene keeps the material.",
              !used, side))
     scene.change("remove from the palette",
@@ -301,17 +298,15 @@ void palette(Gui& gui, SceneControl& scene, CellEditor& cells) {
     if (cells.voxels().palette.empty()) break;
   }
   if (swatch(gui, "cells/eraser", " ", empty_colour, cells.brush() == empty_cell,
-             "Erases cells; so does the right button, and 0 chooses this."))
+             "Erases cells, as the right button does. Key: 0"))
     cells.choose_brush(empty_cell);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("empty");
   ImGui::SameLine();
-  if (button(
-          gui, "cells/palette/add", "Add a material",
-          "One more material to paint with: another one of the scene's, or a new one. The section Materials "
-          "has their numbers.\n\nScene key: voxels[].palette",
-          true, -1.0f))
+  if (button(gui, "cells/palette/add", "Add a material",
+             "Adds a material to paint with; Materials has its values.\n\nScene key: voxels[].palette", true,
+             -1.0f))
     add_to_palette(scene, cells);
 }
 
@@ -324,9 +319,8 @@ void layer_buttons(Gui& gui, CellEditor& cells) {
   if (button(gui, "cells/clear", "Clear", "Empties the layer.", true, third))
     cells.change("clear the layer", [&](VoxelsSettings& v) { fill(v.layers, layer, empty_cell); });
   ImGui::SameLine();
-  if (button(gui, "cells/copy", "Copy up",
-             "The layer above becomes like this one, and is shown; over the topmost there is a new one.",
-             true, third)) {
+  if (button(gui, "cells/copy", "Copy up", "Copies this layer to the one above, and shows that one.", true,
+             third)) {
     cells.change("copy the layer up", [&](VoxelsSettings& v) { copy_up(v, layer); });
     cells.choose_layer(layer + 1);
   }
@@ -342,10 +336,9 @@ void size_row(Gui& gui, CellEditor& cells, const char* label, int count, CellSid
     const bool more = *sign == '+';
     const std::string name = fmt::format("cells/{}/{}", more ? "grow" : "shrink", end),
                       help = more ? fmt::format(
-                                        "One {} of empty cells more at the {}; the others stay where "
-                                        "they are.",
+                                        "Adds one {} of empty cells at the {}; the others keep their places.",
                                         one, end)
-                                  : fmt::format("One {} less at the {}, with its cells.", one, end);
+                                  : fmt::format("Removes one {} at the {}, with its cells.", one, end);
     if (!button(gui, name.c_str(), sign, help, more || count > 1, side)) return;
     const int layer = cells.layer();
     cells.change(fmt::format("{} a {} of cells", more ? "add" : "remove", one), [&](VoxelsSettings& v) {
@@ -382,7 +375,7 @@ void body_choice(Gui& gui, const SceneControl& scene, CellEditor& cells) {
   const std::vector<std::string_view> views(names.begin(), names.end());
   std::size_t index = cells.body();
   label_column("Body");
-  if (choice(gui, "cells/body", views, views, index, "The body whose cells are shown."))
+  if (choice(gui, "cells/body", views, views, index, "Selects the body whose cells to show."))
     cells.choose_body(index);
 }
 
@@ -390,13 +383,12 @@ void body_choice(Gui& gui, const SceneControl& scene, CellEditor& cells) {
 bool has_skin(Gui& gui, SceneControl& scene, std::size_t body) {
   if (scene.scene().model.voxels[body].skin.empty()) return false;
   wrapped_text(
-      "The cells were made from a mesh, which is drawn as their skin. To paint them, the body gives up the "
-      "skin: then its cells are drawn.",
+      "These cells come from a mesh, which is their skin. To paint them, remove the skin: the window then "
+      "shows the cells.",
       ImGui::GetContentRegionAvail().x);
   if (button(
           gui, "cells/without-skin", "Edit as layers",
-          "Removes the skin; the layers, and with them the motion, stay. Undo brings the skin back.\n\nScene "
-          "key: voxels[].skin",
+          "Removes the skin; layers and motion are unchanged. Undo restores it.\n\nScene key: voxels[].skin",
           true, -1.0f))
     scene.change("remove the skin", [&](Scene& s) { s.model.voxels[body].skin.clear(); });
   return true;
@@ -420,7 +412,7 @@ ImU32 cell_colour(const ModelSettings& settings, const VoxelsSettings& voxels, c
 std::string material_text(const VoxelsSettings& voxels, char cell) {
   if (!voxels.palette.empty()) {
     const auto entry = voxels.palette.find(text_of(cell));
-    return entry == voxels.palette.end() ? "of no material" : printable_line(entry->second);
+    return entry == voxels.palette.end() ? "without a material" : printable_line(entry->second);
   }
   return voxels.material.name.empty() ? "the body's own material" : printable_line(voxels.material.name);
 }
@@ -429,10 +421,9 @@ void cells_section(Gui& gui, SceneControl& scene, CellEditor& cells) {
   cells.follow();
   if (!cells.any()) {
     ImGui::TextDisabled("The scene has no body of cells.");
-    if (button(
-            gui, "cells/add-body", "Add a body of cells",
-            "Adds one of a few cells above what is there. Restarts the simulation.\n\nScene key: [[voxels]]",
-            true, -1.0f))
+    if (button(gui, "cells/add-body", "Add a body of cells",
+               "Adds a few cells in free space above. Restarts the simulation.\n\nScene key: [[voxels]]",
+               true, -1.0f))
       add_body(scene, *list_of_bodies("voxels"));
     return;
   }
@@ -448,7 +439,7 @@ void cells_section(Gui& gui, SceneControl& scene, CellEditor& cells) {
   size_row(gui, cells, "Rows", rows, CellSide::back, CellSide::front, "row", "back", "front");
   size_row(gui, cells, "Layers", high, CellSide::bottom, CellSide::top, "layer", "bottom", "top");
   if (!scene.scene().model.voxels[cells.body()].pinned.indices.empty())
-    wrapped_text("Pins name particles by index, which count anew where cells come or go.",
+    wrapped_text("Pins name particles by index, and indices change when you add or remove cells.",
                  ImGui::GetContentRegionAvail().x);
 }
 

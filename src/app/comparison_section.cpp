@@ -78,21 +78,20 @@ void difference_widget(Gui& gui, ComparisonView& comparison_view, const Scene& s
   auto index = static_cast<std::size_t>(std::ranges::find(keys, own.key) - keys.begin());
   label_column("Differs in");
   if (choice(gui, fmt::format("comparison/{}/key", i), names, labels, index,
-             "The one value in which this run differs from the scene's own. Changing it restarts all runs."))
+             "Sets the one difference to the scene's own run. Restarts all runs."))
     return comparison_view.set(
         i, {keys[index], present(keys[index], scene, comparison_view.comparison().run(0))});
   label_column("Value");
   const std::string name = fmt::format("comparison/{}/value", i);
   if (const Words words = words_for(own.key, scene); !words.names.empty()) {
     auto word = static_cast<std::size_t>(std::ranges::find(words.names, own.value) - words.names.begin());
-    if (choice(gui, name, words.names, words.titles, word,
-               "The value of this run. Changing it restarts all runs."))
+    if (choice(gui, name, words.names, words.titles, word, "Sets the value of this run. Restarts all runs."))
       comparison_view.set(i, {own.key, std::string(words.names[word])});
     return;
   }
   std::string text = own.value;
   const bool entered = ImGui::InputText("##value", &text, ImGuiInputTextFlags_EnterReturnsTrue);
-  named(gui, name, "The value of this run, as --set takes it. Enter restarts all runs with it.");
+  named(gui, name, "Sets the value of this run, as --set does. Enter restarts all runs.");
   if (entered) comparison_view.set(i, {own.key, text});
 }
 
@@ -121,8 +120,7 @@ void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& compariso
   }
   const float half = share_of_line(2);
   command_button(gui, "comparison/add", differences.empty() ? "Compare side by side" : "Add a run",
-                 "Adds a run of the scene in which one value differs, on the same clock; up to four runs. "
-                 "Restarts all of them.",
+                 "Adds a run with one different value, up to four runs. Restarts all runs.",
                  "add a run side by side", differences.size() + 1 < most_compared,
                  differences.empty() ? 0.0f : half);
   if (!differences.empty()) {
@@ -133,11 +131,11 @@ void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& compariso
   if (comparison.clock().others_go_on())
     ImGui::TextWrapped("The scene's own run diverged; the others continue. Space pauses them.");
   command_button(gui, "comparison/ghost", "Keep as ghost",
-                 "The run so far is shown pale over the scene's own from now on, at the same time: change a "
-                 "value, press Reset, and see both. At most 128 MiB; what is not kept is simulated again.",
+                 "Shows the run so far as a pale overlay. Change a value, press Reset, and compare. Keeps at "
+                 "most 128 MiB and simulates the rest again.",
                  "keep this run as ghost", true, half);
   ImGui::SameLine();
-  command_button(gui, "comparison/no-ghost", "Remove ghost", "Shows the run without its ghost.",
+  command_button(gui, "comparison/no-ghost", "Removes the ghost.", "Shows the run without its ghost.",
                  "remove the ghost", comparison.ghost() != nullptr, half);
   if (const GhostRun* const ghost = comparison.ghost()) {
     const History& history = ghost->simulation().playback().history();

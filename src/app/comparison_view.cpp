@@ -35,7 +35,7 @@ std::string words_of(const Difference& difference) {
 void ComparisonView::add() {
   std::vector<Difference> differences = scene_.editor().differences();
   if (differences.size() + 1 >= most_compared)
-    return messages_.refuse(fmt::format("At most {} runs can be compared.", most_compared));
+    return messages_.refuse(fmt::format("Aspic compares at most {} runs. Close one first.", most_compared));
   for (const Difference& wanted : suggestions(scene_.scene())) {
     if (std::ranges::find(differences, wanted) != differences.end()) continue;
     differences.push_back(wanted);
@@ -124,9 +124,8 @@ void ComparisonView::keep_ghost() {
   ghost_ = std::make_unique<ScenePicture>(ghost.simulation(), ghost.scene(), view_, picture_.full_quality);
   ghost_->ghost = true;
   if (!messages_.check(ghost_->attach(*context_))) return remove_ghost();
-  messages_.info(
-      fmt::format("This run is the ghost from now on, up to t = {:.3f} s. Change something and press Reset.",
-                  ghost.end()));
+  messages_.info(fmt::format(
+      "This run is now the ghost, up to t = {:.3f} s. Change something and press Reset.", ghost.end()));
 }
 
 void ComparisonView::remove_ghost() {

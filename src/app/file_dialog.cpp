@@ -48,7 +48,7 @@ void FileDialog::go_to(const std::string& directory) {
     if (name.starts_with(".") || !(is_directory || ends_with_any(name, question_.endings))) continue;
     entries_.push_back({name, is_directory});
   }
-  if (error) problem_ = fmt::format("This directory cannot be read: {}.", error.message());
+  if (error) problem_ = fmt::format("Cannot read this directory: {}.", error.message());
   std::ranges::sort(entries_, {}, [](const Entry& e) { return std::tuple(!e.is_directory, e.name); });
 }
 
@@ -92,7 +92,8 @@ void FileDialog::list(Gui& gui, double height) {
     else if (std::exchange(name_, e.name) == e.name && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
       accept();
   }
-  if (entries_.empty()) ImGui::TextDisabled("%s", problem_.empty() ? "no such files here" : problem_.c_str());
+  if (entries_.empty())
+    ImGui::TextDisabled("%s", problem_.empty() ? "no matching files here" : problem_.c_str());
   ImGui::EndChild();
   if (!next.empty()) go_to(next);
 }
@@ -115,12 +116,12 @@ void FileDialog::draw(Gui& gui, double width, double height) {
   // Typing replaces the name that is suggested.
   const bool entered = ImGui::InputText(
       "##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-  named(gui, "files/name", "The file's name, or a path from this directory.");
+  named(gui, "files/name", "Type the file's name, or a path from this directory.");
   std::error_code unknown;
   const bool exists = !name_.empty() && fs::exists(path(), unknown);
   const bool replaces = exists && question_.writes && !fs::is_directory(path(), unknown);
   if (replaces)
-    ImGui::TextDisabled("%s exists. Enter once more replaces all that it holds, comments too.",
+    ImGui::TextDisabled("%s exists. Press Enter again to replace it, comments included.",
                         printable(name_).c_str());
   if (entered && !exists && !question_.writes && !name_.empty()) missed_ = path();
   if (!exists && missed_ == path()) {
@@ -130,8 +131,9 @@ void FileDialog::draw(Gui& gui, double width, double height) {
   }
   const bool ready = question_.writes ? !name_.empty() : exists;
   const std::string label = replaces ? "Replace" : question_.title;
-  const bool pressed = button(gui, "files/accept", label.c_str(),
-                              "Enter does the same; it asks once more before a file is replaced.", ready);
+  const bool pressed =
+      button(gui, "files/accept", label.c_str(),
+             "Opens or saves the file, as Enter does. Replacing needs a second press.", ready);
   if (entered && ((replaces && std::exchange(warned_of_, path()) != path()) || !ready))
     just_opened_ = true;  // the field gets the keyboard again
   else if (ready && (pressed || entered))

@@ -16,7 +16,7 @@ namespace {
 std::string result_text(Recording& film) {
   const VideoOptions& options = film.options();
   if (const Status result = film.result(); !result) return worded(result.error(), FrontEnd::window);
-  return fmt::format("{} holds {} pictures, {:.2f} s at {:g} per second.", options.path, film.frames(),
+  return fmt::format("{} holds {} frames, {:.2f} s at {:g} per second.", options.path, film.frames(),
                      film.seconds(), options.fps);
 }
 
@@ -46,11 +46,11 @@ void Film::start() {
   std::error_code unknown;
   if (!format.is_directory() && std::filesystem::exists(options.path, unknown))
     return messages_.refuse(
-        fmt::format("{} already exists. Choose another name for the film, or none.", options.path));
+        fmt::format("{} already exists. Choose another name for the video, or none.", options.path));
   if (format.is_directory() && std::filesystem::exists(options.path, unknown) &&
       !std::filesystem::is_empty(options.path, unknown)) {
     return messages_.refuse(
-        fmt::format("{} already exists and is not an empty directory. Choose another name for the pictures.",
+        fmt::format("{} already exists and is not an empty directory. Choose another name for the frames.",
                     options.path));
   }
   auto sink = open_film(format, options.path, options.size, options.fps, Overwrite::refuse);
@@ -96,7 +96,7 @@ void Film::start_files() {
 void Film::keep(Result<std::unique_ptr<FilmFile>> file, std::string_view without) {
   if (file) return files_.push_back(std::move(*file));
   messages_.error(
-      fmt::format("{} The film goes on without {}.", worded(file.error(), FrontEnd::window), without));
+      fmt::format("{} The video continues without {}.", worded(file.error(), FrontEnd::window), without));
 }
 
 /// The states of the picture that was drawn.
@@ -222,7 +222,7 @@ void Film::report_completed() {
     if (film->result())
       messages_.info(result_text(*film));
     else
-      messages_.error(result_text(*film) + " The simulation continues without a film.");
+      messages_.error(result_text(*film) + " The simulation continues without a video.");
     return true;
   });
 }

@@ -35,7 +35,8 @@ bool has_hands(const Comparison& comparison) {
 
 Status check_live(ComparisonView& view) {
   const Comparison& comparison = view.comparison();
-  if (comparison.active()) return fail(ErrorCode::usage, "a live page has one run, and there are several.");
+  if (comparison.active())
+    return fail(ErrorCode::usage, "a live page has one run, and this video has several.");
   return page::check_live(view.picture(0).shown_state().precision,
                           comparison.run(0).present().engines().leader().arithmetic, has_hands(comparison));
 }
@@ -65,8 +66,8 @@ class FilmPage final : public FilmFile {
   }
   std::string path() const override { return writer_.path(); }
   std::string sentence(std::uint64_t pictures) const override {
-    return live_ ? fmt::format("{} simulates the same in browsers.", path())
-                 : fmt::format("{} holds the same {} pictures for browsers.", path(), pictures);
+    return live_ ? fmt::format("{} simulates the same run in browsers.", path())
+                 : fmt::format("{} holds the same {} frames for browsers.", path(), pictures);
   }
 
   page::PageWriter writer_;
@@ -100,7 +101,7 @@ class FilmStates final : public FilmFile {
     return fmt::format("{}", fmt::join(paths, ", "));
   }
   std::string sentence(std::uint64_t pictures) const override {
-    return fmt::format("{} {} the states of the film's {} pictures.", path(),
+    return fmt::format("{} {} the states of the video's {} frames.", path(),
                        sinks_.size() > 1 ? "hold" : "holds", pictures);
   }
 
@@ -142,7 +143,7 @@ void FilmFile::add(ComparisonView& view) {
 void FilmFile::finish() {
   if (complete()) return;
   if (pictures_ == 0)
-    return fail({ErrorCode::io, fmt::format("{} was not written: the film has no picture.", path())});
+    return fail({ErrorCode::io, fmt::format("{} was not written: the video has no frame.", path())});
   States states;
   for (const State& state : last_) states.push_back(&state);
   if (const Status written = complete_with(states, divergences_); !written) return fail(written.error());

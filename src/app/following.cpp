@@ -16,7 +16,7 @@ void App::follow_hovered() {
   if (h && h->ball &&
       h->particle >= simulation.model().ball_count() - simulation.present().setup().thrown.size())
     return messages.refuse(
-        "The camera follows the scene's own bodies and balls; this one was thrown by hand.");
+        "The camera follows bodies and balls of the scene; this ball was thrown with the mouse.");
   if (h)
     name = h->ball ? name_of_ball(h->particle)
                    : name_of_body(scene.scene().model, simulation.model(), h->particle);
@@ -25,7 +25,7 @@ void App::follow_hovered() {
     return messages.info("Point at a body or ball of the scene to follow it, or choose one under View.");
   if (name == now) name.reset();
   set_followed(scene, name);
-  messages.info(name ? fmt::format("The camera follows {}.", *name) : "The camera follows nothing.");
+  messages.info(name ? fmt::format("The camera follows {}.", *name) : "The camera no longer follows a body.");
 }
 
 }  // namespace aspic::app

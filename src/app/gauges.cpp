@@ -42,7 +42,7 @@ std::vector<Curve> energy_curves(const Model& model) {
     curves.push_back({"of contact", IM_COL32(225, 130, 190, 255),
                       [](const EnergySample& s) { return s.measures.contact.value_or(0.0); }});
   if (!model.actuation.empty())
-    curves.push_back({"done by actuators", IM_COL32(90, 205, 210, 255),
+    curves.push_back({"actuator work", IM_COL32(90, 205, 210, 255),
                       [](const EnergySample& s) { return s.work.value_or(0.0); }, false});
   return curves;
 }
@@ -231,9 +231,8 @@ double height_of(const DifferenceSample& sample) {
 void plot_differences(Gui& gui, const std::deque<DifferenceSample>& samples) {
   const Plot plot(
       gui, "shadow/plot", 70.0, samples,
-      "Largest difference of any component of the state over time, in units in the last place: the bottom is "
-      "0, the top ten thousand million, each tenth of the height ten times as much. Green where every bit is "
-      "the same.");
+      "Shows the largest difference of the states, in units in the last place. The axis is logarithmic, from "
+      "0 to 10¹⁰: each tenth of the height is a factor of ten. Green: identical bits.");
   for (std::size_t i = 1; i < samples.size() && plot.span > 0.0; ++i) {
     const auto place = [&](const DifferenceSample& s) { return plot.place(s.time, height_of(s)); };
     plot.draw.AddLine(place(samples[i - 1]), place(samples[i]), samples[i].identical ? same : other,
@@ -260,7 +259,7 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
   for (const Curve& c : curves) names.emplace_back(c.name);
   label_column("Compare");
   choice(gui, fmt::format("{}/compared", name), names, names, compared,
-         "The quantity that the plot shows, of each run in the colour of its name.");
+         "Selects the quantity to plot; colors match the runs' names.");
   compared = std::min(compared, curves.size() - 1);
   const Curve& curve = curves[compared];
   std::vector<Line> lines;
@@ -330,24 +329,20 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
     }
   };
   show("energy/plot", energy_curves(s.model()), comparison_view.compared[0], "J",
-       "Energies of the run over time [J]. The gravitational one is zero at the origin; that of contact is "
-       "the part of the elastic one that is in contact between bodies. What actuators have done is the sum "
-       "of their work since the first point of the plot; it keeps growing, and its curve may leave the plot. "
-       "A click goes to that moment. At rest explicit Euler keeps a little kinetic energy: within a step "
-       "gravity and contact act one after the other.");
+       "Plots the energies of the run [J]; a click goes to that moment. Gravitational energy is zero at the "
+       "origin, contact energy is part of the elastic one, and actuator work adds up from the plot's first "
+       "point. With explicit Euler a little kinetic energy remains at rest.");
   if (!folded(gui, layout, "Energy", "momentum", "Momentum over time.")) return;
   show("energy/momentum", momentum_curves, comparison_view.compared[1], "N·s",
-       "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude. A click goes to "
-       "that "
-       "moment.");
+       "Plots the total momentum Σ m·v by axis and in magnitude [N·s]; a click goes to that moment.");
 }
 
 void shadow_section(Gui& gui, const PlaybackSession& s, RunControl& run) {
   const std::vector<const BackendRow*> others = others_than(s.present().backend());
   bool on = s.present().engines().shadowed();
   if (check_box(gui, "compare", "shadow/on", on,
-                "Another backend does the same steps, and after each job of steps the two states are "
-                "compared. The picture shows the leading backend; speed is limited by the slower one."))
+                "Runs the same steps on a second backend and compares the states. The image shows the "
+                "leading backend; the slower one limits the speed."))
     run.set_shadow(on ? others.front() : nullptr);
   if (!s.present().engines().shadowed()) return;
   // A machine with two backends has no choice to offer.
@@ -368,13 +363,13 @@ void shadow_section(Gui& gui, const PlaybackSession& s, RunControl& run) {
   }
   const DifferenceSample& last = s.samples().differences().back();
   const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(last.identical ? same : other);
-  const std::string text = !std::isfinite(last.metres) ? "one of the two diverged"
-                           : last.identical            ? "0 ULP, 0 m: every bit is the same"
+  const std::string text = !std::isfinite(last.metres) ? "one backend diverged"
+                           : last.identical            ? "0 ULP, 0 m: identical bits"
                                             : fmt::format("{} ULP, {:.3g} m", last.ulp, last.metres);
   ImGui::TextColored(colour, "%s", text.c_str());
   gui.mark("shadow/difference");
   if (last.identical && s.samples().ever_differed())
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(other), "there were differences before");
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(other), "they differed before");
 }
 
 }  // namespace aspic::app

@@ -114,8 +114,8 @@ Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services, 
   ImGui_ImplGlfw_InitForOpenGL(gui->services_.window, false);
   if (!ImGui_ImplOpenGL3_Init("#version 430 core"))
     return Error{ErrorCode::no_device,
-                 "The panels cannot be drawn: their OpenGL functions could not be loaded. Install libgl1, or "
-                 "use aspic run, which needs no window."};
+                 "Cannot draw the panels: their OpenGL functions could not be loaded. Install libgl1, or use "
+                 "aspic run, which needs no window."};
   return gui;
 }
 

@@ -82,10 +82,10 @@ Box particle_readout(const Gui& gui, const PlaybackSession& simulation, const Ho
     ImGui::EndTable();
   }
   if (h.ball)
-    ImGui::TextDisabled("%s", h.contact.empty() ? "touches nothing" : h.contact.c_str());
+    ImGui::TextDisabled("%s", h.contact.empty() ? "no contact" : h.contact.c_str());
   else if (simulation.model().contact.model == ContactModel::coulomb && !h.pinned && f.contact == Vec3{} &&
            in_contact(simulation, h.position))
-    ImGui::TextDisabled("A bounce acts on v at the end of a step: no part of f.");
+    ImGui::TextDisabled("A bounce changes v at the end of a step and is not part of f.");
   ImGui::EndGroup();
   gui.mark("particle");
   const Box place = window_box();

@@ -146,11 +146,12 @@ Result<KeptState> read_kept_state(const std::string& text) {
   try {
     const Json found = Json::parse(text, shallow);
     if (found.value("version", 0) != version)
-      return fail(ErrorCode::io, "it does not say \"version\": {}", version);
+      return fail(ErrorCode::io, "it has no \"version\": {}", version);
     KeptState state = state_of(found);
     for (const Json& change : Json::diff(json_of(state), found)) {
       if (change["op"].get<std::string>() != "remove")
-        return fail(ErrorCode::io, "{}: the window would not write this", change["path"].get<std::string>());
+        return fail(ErrorCode::io, "{}: not a value that the window writes",
+                    change["path"].get<std::string>());
     }
     return state;
   } catch (const Json::exception& error) {
@@ -184,10 +185,10 @@ Result<KeptState> load_kept_state(const std::string& path) {
   if (path.empty() || !fs::exists(there, error)) return KeptState();
   auto state = read_kept_state_file(there);
   if (state) return state;
-  return fail(ErrorCode::io,
-              "{} cannot be used ({}), so the window opens with its defaults. "
-              "The file is rewritten when the window closes.",
-              there, state.error().what);
+  return fail(
+      ErrorCode::io,
+      "Cannot use {} ({}), so the window opens with its defaults. Closing the window rewrites the file.",
+      there, state.error().what);
 }
 
 Status save_kept_state(const KeptState& state, const std::string& path) {

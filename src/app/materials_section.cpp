@@ -28,7 +28,7 @@ void name_field(Gui& gui, SceneControl& scene, Messages& messages, std::size_t i
   ImGui::SetNextItemWidth(width);
   ImGui::InputText("##name", &text, ImGuiInputTextFlags_AutoSelectAll);
   named(gui, fmt::format("material/{}/name", i),
-        "The name by which bodies use it; they follow where it changes.\n\nScene key: material[].name");
+        "Renames the material, also in the bodies that use it.\n\nScene key: material[].name");
   const bool active = ImGui::IsItemActive(), done = ImGui::IsItemDeactivatedAfterEdit();
   if (active) {
     typed = text;
@@ -50,7 +50,7 @@ void remove(SceneControl& scene, Messages& messages, std::size_t i) {
   const auto removed = remove_material(changed, i);
   if (!removed) return messages.refuse(removed.error());
   scene.apply(std::move(changed), "remove material");
-  if (!removed->empty()) scene.tell(fmt::format("{} is removed. {}", printable_line(name), *removed));
+  if (!removed->empty()) scene.tell(fmt::format("Removed {}. {}", printable_line(name), *removed));
 }
 
 /// A sample of the colour in which cells of it are shown.
@@ -75,8 +75,8 @@ bool material_rows(Gui& gui, SceneControl& scene, Messages& messages, std::size_
              std::max(ImGui::GetContentRegionAvail().x - width - ImGui::GetStyle().ItemSpacing.x, 1.0f));
   ImGui::SameLine();
   if (button(gui, fmt::format("material/{}/remove", i).c_str(), label,
-             "Removes this material. Bodies that are of it keep its numbers as their own; while cells of a "
-             "palette are of it, it stays.\n\nScene key: [[material]]"))
+             "Removes this material. Its bodies keep the values. A material in a palette cannot be "
+             "removed.\n\nScene key: [[material]]"))
     remove(scene, messages, i);
   if (scene.scene().model.materials.size() != count) return true;
   edit(gui, scene, "material[].density", i);
@@ -84,9 +84,9 @@ bool material_rows(Gui& gui, SceneControl& scene, Messages& messages, std::size_
   edit(gui, scene, "material[].damping-ratio", i);
   const std::vector<std::string> users = users_of_material(scene.scene(), name);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  wrapped_text(
-      users.empty() ? std::string("No body is of it.") : fmt::format("Of it: {}", fmt::join(users, ", ")),
-      ImGui::GetContentRegionAvail().x);
+  wrapped_text(users.empty() ? std::string("Not used by any body.")
+                             : fmt::format("Used by: {}", fmt::join(users, ", ")),
+               ImGui::GetContentRegionAvail().x);
   ImGui::PopStyleColor();
   return false;
 }
@@ -160,11 +160,9 @@ void made_of_row(Gui& gui, SceneControl& scene, std::string_view section, std::s
   const std::string_view key = section.substr(0, section.find('['));
   label_column("Made of");
   const std::string help = fmt::format(
-      "{} A new material begins with the numbers that the body has, under Materials.\n\nScene keys: "
-      "{}[].material{}",
-      cells ? "One material for all cells, or one for each sign of the palette, which Cells paints with."
-            : "Stiffness and damping by type of spring, or a material, which means the same at every "
-              "resolution: with numbers of the body's own, or one of the scene's by name.",
+      "{} A new material starts with the body's values, under Materials.\n\nScene keys: {}[].material{}",
+      cells ? "Selects one material for all cells, or one for each palette character."
+            : "Selects stiffness and damping by type, own material values, or a named material.",
       key, cells ? ", voxels[].palette" : "");
   if (!choice(gui, fmt::format("{}/{}/made-of", key, i), views, views, index, help)) return;
   scene.change("material", [&](Scene& s) { make_of(s.model, section, i, list[index]); });
@@ -173,8 +171,7 @@ void made_of_row(Gui& gui, SceneControl& scene, std::string_view section, std::s
 void materials_section(Gui& gui, SceneControl& scene, Messages& messages) {
   if (scene.scene().model.materials.empty())
     wrapped_text(
-        "No material has a name yet. One that has can be given to any body (Made of, under Bodies) and to "
-        "cells.",
+        "No material has a name yet. Name one to use it in bodies (Made of, under Bodies) and cells.",
         ImGui::GetContentRegionAvail().x);
   for (std::size_t i = 0; i < scene.scene().model.materials.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
@@ -183,9 +180,8 @@ void materials_section(Gui& gui, SceneControl& scene, Messages& messages) {
     if (changed) break;
   }
   if (button(gui, "material/add", "Add a material",
-             "Adds a material for bodies and cells to be made of. The motion continues.\n\nScene key: "
-             "[[material]]",
-             true, -1.0f))
+             "Adds a material for bodies and cells. The motion continues.\n\nScene key: [[material]]", true,
+             -1.0f))
     scene.change("add material", [](Scene& s) {
       const auto& all = s.model.materials;
       add_material(s.model, all.empty() ? MaterialSettings() : all.back(), "material");

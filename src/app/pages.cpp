@@ -17,8 +17,8 @@ namespace {
 void divergence_buttons(Gui& gui, const PlaybackSession& simulation, RunControl& run, Messages& messages) {
   if (const auto step = run.offered_step()) {
     if (button(gui, "diverged/stable", fmt::format("Use h = {:.4g} s", *step).c_str(),
-               "Continues from shortly before the divergence with all values as they are now, and this time "
-               "step: 0.95 of the estimated limit, or half the present step where that is smaller."))
+               "Continues from shortly before the divergence with this time step and all present values. It "
+               "is 0.95 of the estimated limit, or half the present step if smaller."))
       run.take_offered_step();
     ImGui::SameLine();
   }
@@ -26,7 +26,7 @@ void divergence_buttons(Gui& gui, const PlaybackSession& simulation, RunControl&
     const std::string back = fmt::format(
         "Back to t = {:.3f} s", simulation.playback().history().time(simulation.playback().before_trouble()));
     if (button(gui, "diverged/back", back.c_str(),
-               "Returns to shortly before the divergence, with the values that the scene had then."))
+               "Returns to shortly before the divergence, with the values of that time."))
       run.back_before_divergence();
     ImGui::SameLine();
   }
@@ -79,7 +79,7 @@ void notice_panel(const PanelParts& parts, const Box& view) {
                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   notice_text(notice.text, static_cast<float>(room) - 2.0f * ImGui::GetStyle().WindowPadding.x);
   if (parts.simulation.divergence()) divergence_buttons(parts.gui, parts.simulation, parts.run, messages);
-  if (button(parts.gui, "notice/close", "Close", "Dismiss this message (Escape).")) messages.dismiss();
+  if (button(parts.gui, "notice/close", "Close", "Dismisses this message (Escape).")) messages.dismiss();
 }
 
 void help_panel(Gui& gui, bool& visible, double width, double height) {
@@ -94,7 +94,7 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::SameLine(0.0f, 2.0f * ImGui::GetTextLineHeightWithSpacing());
   // Above the rows: in a small window their end is out of sight.
-  if (button(gui, "help/close", "Close", "Close this page (F1 or Escape).")) visible = false;
+  if (button(gui, "help/close", "Close", "Closes this page (F1 or Escape).")) visible = false;
   ImGui::Separator();
   // Headings begin groups, in two columns of about the same length.
   const auto& rows = gui.commands().rows();
@@ -137,8 +137,9 @@ void closing_panel(Gui& gui, Closing& closing, double width, double height) {
   ImGui::SetNextWindowPos(at(0.5 * width, 0.5 * height), ImGuiCond_Always, {0.5f, 0.5f});
   const Panel panel("##closing", 8.0 * gui.scale(), ImVec4(0.23f, 0.11f, 0.09f, 0.97f),
                     ImGuiWindowFlags_AlwaysAutoResize);
-  ImGui::TextUnformatted("The scene was changed and not saved.");
-  if (button(gui, "closing/close", "Close without saving", "Closing the window once more does the same."))
+  ImGui::TextUnformatted("The scene has unsaved changes.");
+  if (button(gui, "closing/close", "Close without saving",
+             "Closes the window without saving, as a second close does."))
     closing = Closing::decided;
   ImGui::SameLine();
   if (command_button(gui, "closing/save", "Save…", "Writes the scene to a file.", "save the scene"))

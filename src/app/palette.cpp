@@ -105,14 +105,14 @@ std::vector<Palette::Hit> Palette::find(const PanelParts& p) {
   }
   for (const BodyRow& row : body_rows())
     add(fmt::format("add a {}", noun_of(row.list.key)), "",
-        {.help = "Where it is in nobody's way. Restarts the simulation.",
+        {.help = "Adds it in free space. Restarts the simulation.",
          .act = [&p, &row] { add_body(p.scene, row.list); }});
-  add("add a box", "", {.help = "Where it is in nobody's way. Restarts the simulation.", .act = [&p] {
+  add("add a box", "", {.help = "Adds it in free space. Restarts the simulation.", .act = [&p] {
                           p.scene.change("add box", [](Scene& s) { add_box(s); });
                         }});
   for (const std::string& body : followed_names(scene))
     add("follow " + body, "",
-        {.help = "The camera moves along with it.", .act = [&p, body] { set_followed(p.scene, body); }});
+        {.help = "Moves the camera along with it.", .act = [&p, body] { set_followed(p.scene, body); }});
   for (const LayoutRow& row : layouts())
     add(fmt::format("layout {}", row.name), row.summary,
         {.help = std::string(row.summary), .act = [&p, &row] { p.layout.choose(row); }});
@@ -196,7 +196,7 @@ void Palette::draw(const PanelParts& p, double width, double height) {
                                ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   const bool typing = ImGui::IsItemActive();
   named(p.gui, "palette/query",
-        "Type part of a name. Down and Up select, Enter runs the selection; of a value it begins typing.");
+        "Type part of a name. Down and Up select, Enter runs the selection or edits the value.");
   const std::vector<Hit> hits = find(p);
   const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
   const int last = std::max(static_cast<int>(hits.size()) - 1, 0);
@@ -221,7 +221,7 @@ void Palette::draw(const PanelParts& p, double width, double height) {
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(hit.keys.c_str()).x);
     ImGui::TextDisabled("%s", hit.keys.c_str());
   }
-  if (hits.empty()) ImGui::TextDisabled("nothing has these words");
+  if (hits.empty()) ImGui::TextDisabled("No matches");
   // After a value was entered the next one can be looked for.
   if (typed_row_ >= 0 && typed_row < 0 && (pressed(ImGuiKey_Enter) || pressed(keypad_enter)))
     back_to_query_ = true;

@@ -35,21 +35,19 @@ constexpr Heading left_sections[] = {
     {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene, p.comparison); },
      "Motion, integrator, time step, pace and gravity."},
     {"Springs", [](Parts p) { springs_section(p.gui, p.scene, p.layout); },
-     "Stiffness and damping, of all types together or by type, or a material."},
+     "Stiffness and damping, for all types, by type, or by material."},
     {"Scene", [](Parts p) { scene_section(p.gui, p.scene); },
      "Scenes and terrain; opening, saving and reloading."},
     {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene, p.simulation, p.cells, p.layout); },
-     "Add a body: a cube, a box, cells, a cloth, a net, a ball, a mesh; place, size, mass and pins of those "
-     "there "
-     "are."},
+     "Add a body, and set the place, size, mass and pins of each."},
     {"Cells", [](Parts p) { cells_section(p.gui, p.scene, p.cells); },
-     "The layers of a body of cells, painted with the mouse, and its palette."},
+     "Paint the layers of a body of cells with the mouse."},
     {"Materials", [](Parts p) { materials_section(p.gui, p.scene, p.messages); },
-     "Materials that have names: density, Young's modulus and damping ratio."},
+     "Named materials: density, Young's modulus and damping ratio."},
     {"Contact", [](Parts p) { contact_section(p.gui, p.scene); },
-     "Contact model, restitution, friction, and the terrain's own values."},
+     "Contact model, restitution, friction, and values of each terrain."},
     {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); },
-     "Balls thrown by hand, and the strength of pulls."}};
+     "Throwing balls, and the strength of mouse pulls."}};
 constexpr Heading right_sections[] = {
     {"Energy", [](Parts p) { energy_section(p.gui, p.comparison_view, p.run, p.layout); },
      "Energies and momentum over time."},
@@ -57,9 +55,9 @@ constexpr Heading right_sections[] = {
      [](Parts p) {
        view_section(p.gui, p.scene, p.view.camera, p.picture.range(), p.picture.shadows, p.layout);
      },
-     "What is drawn, its colours, the camera, and the size of text."},
+     "Bodies, colors, the camera, and the size of text."},
     {"Side by side", [](Parts p) { comparison_section(p.gui, p.scene, p.comparison_view); },
-     "Further runs of the scene, each with one difference, on the same clock."},
+     "Up to three more runs, each with one difference."},
     {"Recording",
      [](Parts p) {
        recording_section(p.gui, p.scene.editor().source(), p.film);
@@ -68,13 +66,13 @@ constexpr Heading right_sections[] = {
        ImGui::Separator();
        state_files(p.gui, p.scene.editor().source(), p.simulation, p.comparison_view, p.messages, p.files);
      },
-     "Films of the scene; its states, energies and checkpoints as files."},
+     "Videos; states, energies and checkpoints as files."},
     {"Stability", [](Parts p) { stability_section(p.gui, p.scene, p.stability); },
-     "Which time steps and stiffnesses are stable, and where the scene is among them."},
+     "Stable time steps and stiffnesses, and the place of the scene among them."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.comparison, p.picture); },
-     "Speed of simulation and drawing, and the devices used."},
+     "Speed of simulation and rendering, and the devices used."},
     {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); },
-     "A second backend on the same run, and how far the two differ."}};
+     "A second backend on the same run, and the largest difference."}};
 
 /// `wanted`: the one to scroll to.
 void sections(Parts parts, std::span<const Heading> headings, std::string_view wanted) {
@@ -127,7 +125,7 @@ void status_line(Parts parts, const Box& box) {
       fmt::format("{}{}", s.present().solver().backend(), software ? " (software)" : ""),
       fmt::format("speed ×{:g}", s.pacer().speed()),
   };
-  if (film) facts.insert(facts.begin() + 1, fmt::format("● filming, {:.2f} s", film->seconds()));
+  if (film) facts.insert(facts.begin() + 1, fmt::format("● recording, {:.2f} s", film->seconds()));
   const double factor = comparison.clock().runs() ? comparison.clock().real_time_factor() : 0.0;
   if (factor > 0.0) {
     const std::string why = film && !film->ready() ? " (waits for the encoder)"
@@ -137,7 +135,7 @@ void status_line(Parts parts, const Box& box) {
     facts.push_back(fmt::format("{:.3g} × real time{}", factor, why));
   }
   if (s.jobs().long_under_way())
-    facts.insert(facts.begin(), s.rebuild().changing() ? "working: rebuilds the scene"
+    facts.insert(facts.begin(), s.rebuild().changing() ? "working: rebuilding the scene"
                                                        : fmt::format("working on step {}", s.step() + 1));
   const PlaybackSession& setter = comparison.clock().setter();
   facts.push_back(
@@ -174,10 +172,9 @@ void timeline(Gui& gui, const PlaybackSession& s, ComparisonView& comparison_vie
                                          ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
   gui.mark("timeline");
   const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
-  tooltip(fmt::format("The run so far, {} of at most 512 MiB. Drag to go to any step; this pauses the run. "
-                      "Steps between the {} stored states are simulated again and give the same bits, pulls "
-                      "and pins included. Marks are changes of the scene, which are reverted and restored as "
-                      "well. Continuing from the past discards what came after.",
+  tooltip(fmt::format("Shows the run so far, {} of at most 512 MiB. Drag to go to any step; this pauses the "
+                      "run. Aspic simulates the steps between the {} stored states again, with the same "
+                      "bits. Marks show scene changes. Continuing from the past discards the later steps.",
                       human_bytes(history.bytes()), history.keyframe_count()),
           "step back");
   if (last > first) {
@@ -225,14 +222,13 @@ Box action_bar(Parts p, const Box& view) {
     large("actions/reset", "Reset", "Returns to the scene's start.", "reset to the start", true);
     ImGui::SameLine();
     large("actions/compare", "Compare",
-          "Adds a run side by side: first another integrator, then half the time step, then four times the "
-          "stiffness. What differs is changed in the section Side by side.",
+          "Adds a run with another integrator, then half the time step, then four times the stiffness. "
+          "Change the difference under Side by side.",
           "add a run side by side", comparison.count() < most_compared);
     ImGui::SameLine();
-    large("actions/film", films ? "End film" : "Film",
-          "Films the picture from now on, all runs of a comparison together, or completes the film. Format "
-          "and name are in the section Recording.",
-          "start or end a film", true);
+    large("actions/film", films ? "End video" : "Film",
+          "Starts or ends a video of all runs. Recording sets format and name.", "start or end a video",
+          true);
   }
   ImGui::PopStyleVar(2);
   Box above = view;
@@ -248,7 +244,7 @@ void drag_edge(Gui& gui, const char* name, double place, double height, double i
                     ImGuiWindowFlags_NoBackground);
   ImGui::PopStyleVar();
   ImGui::InvisibleButton("##edge", at(grip, height));
-  named(gui, name, "Drag to make the panels wider or narrower; double-click for their default width.");
+  named(gui, name, "Drag to resize the panels; double-click to reset their width.");
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   if (ImGui::IsItemHovered() || ImGui::IsItemActive())
     ImGui::GetWindowDrawList()->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_ButtonHovered));

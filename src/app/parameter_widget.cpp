@@ -258,7 +258,7 @@ void absent_text(std::string_view meaning) {
 bool presence_box(const Field& f, bool& present) {
   const bool toggled = ImGui::Checkbox("##set", &present);
   named(f.gui, f.key + "/set",
-        fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", f.parameter.when_absent, f.help));
+        fmt::format("Check to use this value. Unchecked: {}.\n\n{}", f.parameter.when_absent, f.help));
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
   ImGui::SetNextItemWidth(-1.0f);
   return toggled;

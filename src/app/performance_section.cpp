@@ -27,8 +27,8 @@ void pass_times(Gui& gui, GpuSolver& solver) {
   solver.set_profiling(true);
   group_heading("Passes of a step");
   named(gui, "performance/passes",
-        "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
-        "last steps measured, from time stamps.");
+        "Shows the device time [ms] and dispatches of each kind of pass in a step; means over the last "
+        "measured steps.");
   const std::vector<gl::PassTime> passes = solver.pass_times();
   if (passes.empty()) {
     ImGui::TextDisabled("   not measured yet");
@@ -75,18 +75,17 @@ void performance_section(Gui& gui, PlaybackSession& s, const Comparison& compari
          picture.at_rest ? fmt::format("at rest, {:.0f} ms", 1e3 * picture.rate.draw_seconds)
                          : fmt::format("{:.0f}/s, {:.1f} ms each", picture.rate.per_second(),
                                        1e3 * picture.rate.draw_seconds),
-         "Pictures of the window per second, and how long the last one of the scene took.");
+         "Window frames per second, and the time of the scene's last one.");
   if (const FramePolicy* const policy = picture.policy()) {
     const double share = picture.full_quality ? 1.0 : policy->resolution.share();
     figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * share),
-           "A software rasteriser draws: pictures are coarser while something moves. At rest and when saved "
-           "they "
-           "are of full size.");
+           "A software rasterizer draws. Frames are coarser during motion; still and saved images have full "
+           "size.");
   }
   GpuSolver* const gpu = gpu_of(s.present().engines().leader());
   if (gpu && device.is_software) {
     figure("Passes of a step", "not timed",
-           "A software device's time stamps do not say when its passes ran.");
+           "The time stamps of a software device do not measure its passes.");
     gui.mark("performance/not-timed");
   } else if (gpu) {
     pass_times(gui, *gpu);
@@ -100,7 +99,7 @@ void performance_section(Gui& gui, PlaybackSession& s, const Comparison& compari
          fmt::format("{}, {}", s.present().solver().backend(), human_bytes(s.present().solver().bytes())),
          s.present().solver().description());
   ImGui::TextDisabled("%s", device.renderer.substr(0, 40).c_str());
-  tooltip(fmt::format("Draws the window: {}, OpenGL {}", device.renderer, device.version));
+  tooltip(fmt::format("Renders the window: {}, OpenGL {}", device.renderer, device.version));
 }
 
 }  // namespace aspic::app

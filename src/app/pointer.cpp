@@ -20,7 +20,7 @@ constexpr double double_click_time = 0.400, double_click_reach = 4.0;
 /// Contacts of a ball: terrain by name, other balls and particles by number.
 std::string contacts_of_ball(const Model& model, const State& state, std::uint32_t b) {
   const Ball& ball = model.balls[b];
-  if (!ball.launched(state.step)) return "waits for its launch";
+  if (!ball.launched(state.step)) return "not launched yet";
   const Vec3 x = state.ball_position[b];
   const double reach = ball.radius + model.contact.epsilon;
   std::string words;

@@ -20,7 +20,7 @@
 namespace aspic::app {
 namespace {
 
-constexpr const char* start_or_end = "start or end a film";
+constexpr const char* start_or_end = "start or end a video";
 
 void format_widget(Gui& gui, FilmSettings& film) {
   label_column("Format");
@@ -31,8 +31,7 @@ void format_widget(Gui& gui, FilmSettings& film) {
   }
   auto index = static_cast<std::size_t>(film.format - film_formats().data());
   if (!choice(gui, "record/format", names, labels, index,
-              "Output of the film: a file (mp4, webm and GIF need the program ffmpeg), or a directory of "
-              "numbered pictures."))
+              "Selects a file (mp4, webm and GIF need ffmpeg) or a directory of numbered frames."))
     return;
   film.format = &film_formats()[index];
   film.fps = std::min(film.fps, film.format->most_fps);
@@ -43,11 +42,10 @@ void rate_widget(Gui& gui, FilmSettings& film) {
   const double least = 1.0, most = film.format->most_fps;
   number_drag("##fps", film.fps, 0.2f, least, most, "%.4g a second", ImGuiSliderFlags_AlwaysClamp,
               between(least, most));
-  named(
-      gui, "record/fps",
-      fmt::format("Pictures per second of the film, 1 … {:g} in this format. Each shows the state speed/rate "
-                  "seconds of simulated time after the previous one.\nDrag to change, Ctrl+click to type.",
-                  most));
+  named(gui, "record/fps",
+        fmt::format("Sets the frames per second, 1 … {:g} in this format. Frames are speed/rate seconds of "
+                    "simulated time apart.\nDrag to change, Ctrl+click to type.",
+                    most));
 }
 
 void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
@@ -58,11 +56,9 @@ void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
   const float room = ImGui::CalcItemWidth() - 2.0f * ImGui::GetStyle().FramePadding.x;
   if (ImGui::InputTextWithHint("##film", elided_path(hint, room).c_str(), text.data(), text.size()))
     film.path = text.data();
-  named(
-      gui, "record/path",
-      fmt::format("Name of the film; if left empty, {}. The format determines the extension. Existing files "
-                  "are never overwritten.",
-                  hint));
+  named(gui, "record/path",
+        fmt::format("Names the video; if empty, {}. The format sets the extension. Existing files stay.",
+                    hint));
 }
 
 /// Whether the film's states are written too, and in which format.
@@ -70,8 +66,7 @@ void states_widget(Gui& gui, FilmSettings& film) {
   label_column("States");
   std::vector<const StateFormat*> formats = {nullptr};
   std::vector<std::string_view> names = {"none"}, labels = {"none"};
-  std::string help =
-      "Writes the states of the film's pictures as well, under its name, as aspic run --export does.";
+  std::string help = "Writes the states of the frames too, as aspic run --export does.";
   for (const StateFormat& format : state_formats()) {
     if (!format.motion) continue;
     formats.push_back(&format);
@@ -81,7 +76,7 @@ void states_widget(Gui& gui, FilmSettings& film) {
   }
   auto index = static_cast<std::size_t>(std::ranges::find(formats, film.states) - formats.begin());
   if (choice(gui, "record/states", names, labels, index,
-             help + "\nIt ends where the model becomes another, or the run goes back."))
+             help + "\nEnds when the model changes or the run is rewound."))
     film.states = formats[index];
 }
 
@@ -130,8 +125,8 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
       return messages.refuse(fmt::format("{} already exists. Choose another name.", paths[i]));
     if (format.holds_scene && !comparison.run(i).present().setup().thrown.empty())
       return messages.refuse(
-          fmt::format("A {} holds the scene, its state, pulls and pins, and balls thrown by hand are none of "
-                      "these. Remove them first (Balls, or Reset), or save the state alone.",
+          fmt::format("A {} cannot store balls thrown with the mouse. Remove them first (Balls, or Reset), "
+                      "or save the state alone.",
                       format.option));
   }
   for (std::size_t i = 0; i < comparison.count(); ++i) {
@@ -168,7 +163,7 @@ void save_inputs(const std::string& path, Overwrite overwrite, PlaybackSession& 
   };
   if (const Status written = write(); !written) return messages.error(written.error());
   messages.info(fmt::format(
-      "{} holds the inputs up to step {}: Open… repeats them here, aspic run --replay without a window.",
+      "{} holds the inputs up to step {}. Open… repeats them here, aspic run --replay without a window.",
       path, simulation.step()));
 }
 
@@ -177,53 +172,46 @@ void save_inputs(const std::string& path, Overwrite overwrite, PlaybackSession& 
 void recording_section(Gui& gui, const std::string& source, Film& film) {
   if (const Recording* const recording = film.recording()) {
     const VideoOptions& o = recording->options();
-    const std::string label = fmt::format("End the film ({:.2f} s)", recording->seconds());
+    const std::string label = fmt::format("End the video ({:.2f} s)", recording->seconds());
     if (command_button(gui, "record/stop", label.c_str(), "Completes " + o.path + ".", start_or_end, true,
                        -1.0f))
       return;
-    ImGui::TextDisabled("%llu pictures of %d × %d", static_cast<unsigned long long>(recording->frames()),
+    ImGui::TextDisabled("%llu frames of %d × %d", static_cast<unsigned long long>(recording->frames()),
                         o.size.width, o.size.height);
-    tooltip("Pictures so far, and their size in pixels.");
+    tooltip("Shows the number of frames and their size in pixels.");
     if (!recording->ready()) ImGui::TextDisabled("The motion waits for the encoder.");
     return;
   }
-  command_button(gui, "record/start", "Start a film",
-                 "Films the scene, or all runs side by side, without the panels, in step with simulated "
-                 "time: no picture is lost or "
-                 "doubled, however fast the solver and the window are. The film's size is that of the view "
-                 "now. While the motion pauses, so does the film.",
+  command_button(gui, "record/start", "Start a video",
+                 "Records the scene, or all runs side by side, in simulated time and at the view's present "
+                 "size. A pause of the motion pauses the video.",
                  start_or_end, true, -1.0f);
   format_widget(gui, film.settings);
   rate_widget(gui, film.settings);
   name_widget(gui, source, film.settings);
   label_column("Parameters");
   check_box(gui, "shown", "record/text", film.settings.text,
-            "Terrain, integrator, time step, springs and time are written on the picture, as in aspic run "
-            "--video, with the legend of the colours.");
+            "Shows terrain, integrator, time step, springs, time and the color legend.");
   label_column("Page");
   check_box(gui, "for browsers", "record/page", film.settings.page,
-            "Writes the film's states as a page as well, of the same name: one HTML file that browsers open, "
-            "to be turned "
-            "and played there, as aspic run --html writes it. It ends where the model becomes another, or "
-            "the run goes back.");
+            "Writes one HTML file to turn and play in browsers. It ends when the model changes or the run is "
+            "rewound.");
   label_column("Live page");
   check_box(gui, "simulates", "record/live", film.settings.live,
-            "Writes a page that simulates what is filmed in the browser, with sliders, as aspic run "
-            "--html-live writes it, and compares its bits with those of this machine. It ends where a hand "
-            "pulls, too.");
+            "Writes a page that simulates in the browser and compares bits. It also ends at a mouse pull.");
   states_widget(gui, film.settings);
-  if (film.completing() > 0) ImGui::TextDisabled("Completing the last film …");
+  if (film.completing() > 0) ImGui::TextDisabled("Completing the last video …");
 }
 
 void picture_files(Gui& gui, SavedLook& look) {
   static constexpr std::string_view names[] = {"1", "2", "4"}, labels[] = {"as the view", "×2", "×4"};
-  command_button(gui, "picture/save", "Save the picture",
-                 "Saves the picture alone, as finely as it can be drawn.", "save the picture", true, -1.0f);
+  command_button(gui, "picture/save", "Save the image", "Saves the image without panels, at full quality.",
+                 "save the image", true, -1.0f);
   label_column("Size");
-  choice(gui, "picture/size", names, labels, look.scale, "Pixels of saved pictures for each of the view's.");
+  choice(gui, "picture/size", names, labels, look.scale,
+         "Sets the pixels of saved images per pixel of the view.");
   label_column("Background");
-  check_box(gui, "clear", "picture/clear", look.clear,
-            "Leaves sky and terrain out of saved pictures; what the bodies do not cover is transparent.");
+  check_box(gui, "clear", "picture/clear", look.clear, "Makes sky and terrain transparent in saved images.");
 }
 
 void state_files(Gui& gui, const std::string& source, PlaybackSession& simulation,
@@ -233,9 +221,8 @@ void state_files(Gui& gui, const std::string& source, PlaybackSession& simulatio
     if (format.motion) continue;  // next to films
     const std::string name = fmt::format("save/{}{}", format.option, format.ending);
     const std::string label = fmt::format("Save {}… ({})", format.option, format.ending);
-    std::string help = format.over_time
-                           ? "Writes the energies and momentum of the plot to a file, a row for each point."
-                           : fmt::format("Writes the {} at this step to a file.", format.option);
+    std::string help = format.over_time ? "Writes the plotted energies and momentum, a row for each point."
+                                        : fmt::format("Writes the {} at this step to a file.", format.option);
     if (comparison.active())
       help += fmt::format(" Each run has its own: name-1{0}, name-2{0} and so on.", format.ending);
     if (!button(gui, name.c_str(), label.c_str(), help, true, -1.0f)) continue;
@@ -247,8 +234,8 @@ void state_files(Gui& gui, const std::string& source, PlaybackSession& simulatio
     files.ask({"Save", {format.ending}, true, write}, free_state_name(source, format.ending, comparison));
   }
   if (!button(gui, "save/inputs.toml", "Save inputs… (.toml)",
-              "Writes the pulls and pins of hands since the start, by step. Opened here, they repeat the run "
-              "to the bit, on any backend; aspic run --replay does so without a window.",
+              "Writes pulls and pins since the start, by step. Opened here, or with aspic run --replay, they "
+              "repeat the run with identical bits on any backend.",
               true, -1.0f))
     return;
   const auto write = [&simulation, &messages](const std::string& path, Overwrite overwrite) {

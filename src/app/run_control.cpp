@@ -22,7 +22,7 @@ std::string sentence(std::string words) {
 
 void RunControl::toggle() {
   if (simulation_.divergence())
-    messages_.error("The simulation has diverged. Use a smaller step, go back or reset first.",
+    messages_.error("The simulation has diverged. Use a smaller time step, go back or reset first.",
                     Until::divergence_is_over);
   else
     simulation_.set_running(!simulation_.running());
@@ -50,7 +50,7 @@ void RunControl::switch_backend() {
   while (!changed && (row = &next_backend(*row)) != &current)
     changed = simulation_.rebuild().set_backend(*row);
   scene_.follow_history();
-  const std::string now = fmt::format("Now on {}.", simulation_.present().solver().description());
+  const std::string now = fmt::format("Backend: {}.", simulation_.present().solver().description());
   if (first)
     messages_.info(now);
   else
@@ -59,9 +59,9 @@ void RunControl::switch_backend() {
 
 void RunControl::set_shadow(const BackendRow* backend) {
   if (!messages_.check(simulation_.rebuild().set_shadow(backend))) return;
-  messages_.info(
-      backend ? fmt::format("Shadowed by {}.", simulation_.present().engines().shadow().solver->description())
-              : "Shadow mode is off.");
+  messages_.info(backend ? fmt::format("Comparing with {}.",
+                                       simulation_.present().engines().shadow().solver->description())
+                         : "The comparison of backends has ended.");
 }
 
 void RunControl::step_back() {
@@ -106,10 +106,10 @@ void RunControl::watch_divergence() {
   const SimulationSettings& s = model.simulation;
   stable_ = stability_limit(model, s.integrator, StabilityEffort::quick);
   messages_.error(
-      fmt::format("The simulation diverged in step {} (t = {:.6g} s): {} {}. {} The last good step is shown.",
-                  divergence->step, static_cast<double>(divergence->step) * s.timestep,
-                  body_text(*divergence), fault_text(*divergence),
-                  divergence_sentence(s.timestep, s.integrator, *stable_)),
+      fmt::format(
+          "The simulation diverged in step {} (t = {:.6g} s): {} {}. {} The window shows the last good step.",
+          divergence->step, static_cast<double>(divergence->step) * s.timestep, body_text(*divergence),
+          fault_text(*divergence), divergence_sentence(s.timestep, s.integrator, *stable_)),
       Until::divergence_is_over);
 }
 

@@ -28,9 +28,7 @@ void scale_rows(Gui& gui, SceneControl& scene, const QuantityRange& shown) {
     edit_end(gui, scene, "view.scale.from", shown[0]);
     edit_end(gui, scene, "view.scale.to", shown[1]);
   } else if (button(gui, "scale/keep", "Keep this range",
-                    "Fixes the ends of the scale as they are in the picture now, so that colours can be "
-                    "compared from here on.",
-                    true, -1.0f)) {
+                    "Fixes the ends of the scale at their present values.", true, -1.0f)) {
     scene.change("view.scale", [&](Scene& changed) {
       changed.view.scale.range = ScaleRange::fixed;
       changed.view.scale.from = shown[0];

@@ -56,7 +56,7 @@ void SceneControl::open_inputs(const std::string& path) {
     const Error& why = inputs.error();
     return messages_.error(
         why.code == ErrorCode::scene_rejected
-            ? fail(why, "The inputs of {} are not for the scene {}.\n{}", path, scene().name, why.what)
+            ? fail(why, "The inputs of {} do not fit the scene {}.\n{}", path, scene().name, why.what)
             : why);
   }
   if (!messages_.check(simulation_.rebuild().reset())) return;
@@ -79,7 +79,7 @@ void SceneControl::open_neighbour(int offset) {
 void SceneControl::reload() {
   const std::string source = editor_.source();
   open(source);
-  if (!messages_.notice()) messages_.info(fmt::format("{} reloaded.", source));
+  if (!messages_.notice()) messages_.info(fmt::format("Reloaded {}.", source));
 }
 
 /// The file was written: constants take effect while the motion continues, and undo comes back to what was
@@ -97,9 +97,9 @@ void SceneControl::reread_file() {
   editor_.mark_saved();
   if (camera != editor_.scene().view.camera) view_.camera = CameraControl(editor_.scene().view.camera);
   messages_.info(
-      fmt::format("{} changed on disk and was reloaded{}.{}", editor_.source(),
+      fmt::format("Reloaded {}, which changed on disk{}.{}", editor_.source(),
                   effect == Effect::restart ? "; bodies changed, so the simulation was restarted" : "",
-                  changed ? " Undo brings back what was changed here." : ""));
+                  changed ? " Undo restores the changes made here." : ""));
 }
 
 void SceneControl::save_as(const std::string& path, Overwrite overwrite) {
@@ -152,7 +152,7 @@ void SceneControl::apply(Scene scene, const std::string& name, const std::string
 /// The change removed what the camera followed.
 void SceneControl::say_if_gone(const std::optional<std::string>& followed) {
   if (!followed || scene().view.follow || find_followed(scene().model, *followed)) return;
-  tell(fmt::format("The scene has no {} any more: the camera follows nothing.", *followed));
+  tell(fmt::format("The scene no longer has {}: the camera stops following it.", *followed));
 }
 
 void SceneControl::tell(const std::string& sentences) {

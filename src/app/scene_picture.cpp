@@ -185,7 +185,7 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   Status drawn = renderer_->draw(content.size.width, content.size.height, state, options);
   if (!drawn && drawn.error().code == ErrorCode::scene_rejected && has_scale(options.view.colour)) {
     // What a colour needs of the device may be more than it has: the scene goes on without.
-    refusal_ = "This colour cannot be shown: " + drawn.error().what;
+    refusal_ = "Cannot show this color: " + drawn.error().what;
     options.view.colour = ViewColour::material;
     drawn = renderer_->draw(content.size.width, content.size.height, state, options);
   }

@@ -35,15 +35,13 @@ void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, 
 
 void scene_buttons(Gui& gui, const SceneEditor& editor) {
   const float half = share_of_line(2), third = share_of_line(3);
-  command_button(gui, "scene/open", "Open…",
-                 "Opens a scene file, a checkpoint where the run was then, or saved inputs, which "
-                 "this scene repeats from its start on.",
+  command_button(gui, "scene/open", "Open…", "Opens a scene, a checkpoint at its step, or inputs to replay.",
                  "open a scene, checkpoint or inputs", true, third);
   ImGui::SameLine();
-  command_button(gui, "scene/save", "Save…", "Writes the scene as it is now, with this camera.",
+  command_button(gui, "scene/save", "Save…", "Writes the scene with its changes and this camera.",
                  "save the scene", true, third);
   ImGui::SameLine();
-  command_button(gui, "scene/reload", "Reload", "Reloads the scene; changes made here are discarded.",
+  command_button(gui, "scene/reload", "Reload", "Reloads the scene and discards changes made here.",
                  "reload the scene", true, third);
   const bool undo = editor.can_undo(), redo = editor.can_redo();
   command_button(gui, "scene/undo", "Undo",
@@ -83,8 +81,8 @@ void scene_section(Gui& gui, SceneControl& scene) {
                                                 sizeof filter.InputBuf, ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemActive() || entered) filter.Build();
   named(gui, "scene/search",
-        "Shows scenes whose name or description contains this. A scene file is opened by dropping it on the "
-        "window. Enter opens the only scene that is left.");
+        "Filters scenes by name or description. Enter opens the only match. Drop a scene file on the window "
+        "to open it.");
   if (filter.IsActive()) {
     ImGui::SameLine();
     if (button(gui, "scene/search/clear", "×", "Shows all scenes.", true, ImGui::GetFrameHeight()))
@@ -120,7 +118,8 @@ void scene_section(Gui& gui, SceneControl& scene) {
     const std::string shown = elided_path(name, ImGui::GetContentRegionAvail().x);
     if (ImGui::Selectable(fmt::format("{}##{}", shown, file).c_str(), file == scene.editor().source()))
       scene.open(file);
-    named(gui, "scene/" + file, fmt::format("{}\n\nIt is reloaded whenever it is written.", printable(file)));
+    named(gui, "scene/" + file,
+          fmt::format("{}\n\nAspic reloads it when the file changes.", printable(file)));
   }
   const float half = share_of_line(2);
   group_heading("Terrain");
@@ -138,7 +137,7 @@ void simulation_section(Gui& gui, PlaybackSession& s, SceneControl& scene, const
   command_button(gui, "simulation/run", runs ? "Pause" : "Start", "Starts or pauses the motion.",
                  "start or pause", !diverged || comparison.clock().others_go_on(), third);
   ImGui::SameLine();
-  command_button(gui, "simulation/step", "Step", "Takes one time step; pauses first.", "single step",
+  command_button(gui, "simulation/step", "Step", "Makes one time step, and pauses first.", "single step",
                  !diverged, third);
   ImGui::SameLine();
   command_button(gui, "simulation/reset", "Reset", "Returns to the scene's start.", "reset to the start",
@@ -148,8 +147,8 @@ void simulation_section(Gui& gui, PlaybackSession& s, SceneControl& scene, const
                  "Switches to the other solver; the state keeps every bit.", "other backend", true, half);
   ImGui::SameLine();
   command_button(gui, "simulation/back", "Step back",
-                 "Goes back one time step; the bar below the picture goes to any step since the start.",
-                 "step back", s.playback().can_step_back(), half);
+                 "Goes back one time step. Drag the bar below to go to any step.", "step back",
+                 s.playback().can_step_back(), half);
   edit(gui, scene, "simulation.integrator");
   edit(gui, scene, "simulation.timestep", 0, {"Time step"});
   label_column("Pace");
@@ -157,13 +156,13 @@ void simulation_section(Gui& gui, PlaybackSession& s, SceneControl& scene, const
   Pacer& pacer = s.pacer();
   auto pace = static_cast<std::size_t>(pacer.pace());
   if (choice(gui, "simulation/pace", paces, paces, pace,
-             "How fast simulated time passes: a fixed number of steps for each picture, or real time. Where "
-             "the solver cannot keep up, the factor in the status line says so."))
+             "Sets the pace: steps per frame, or real time. The status line shows the factor of a solver "
+             "that is slower."))
     pacer.set_pace(static_cast<Pace>(pace));
   if (pacer.pace() == Pace::steps_per_frame) edit(gui, scene, "simulation.steps-per-frame");
   double speed = pacer.speed();
   slider(gui, "Speed", "simulation/speed", speed, slowest_speed, fastest_speed, "×%.4g",
-         "Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
+         "Sets the factor on the pace, from 1/1024 to 1024. Keys: + and -");
   pacer.set_speed(speed);
   edit(gui, scene, "simulation.gravity");
   // The cube that the assignments speak of; the rest of it, and other bodies, are under Bodies.
@@ -178,28 +177,26 @@ void simulation_section(Gui& gui, PlaybackSession& s, SceneControl& scene, const
 void balls_section(Gui& gui, const PlaybackSession& simulation, Hands& hands) {
   const float third = share_of_line(3);
   command_button(gui, "balls/throw", "Throw",
-                 "Throws a ball from the camera into the middle of the picture; the key throws it at what is "
-                 "under the mouse.",
+                 "Throws a ball into the middle of the image; the key throws it at the mouse.",
                  "throw a ball", true, third);
   ImGui::SameLine();
-  if (button(gui, "balls/many", "Throw many", "Throws a dozen balls, side by side.", true, third))
-    hands.throw_many();
+  if (button(gui, "balls/many", "Throw many", "Throws a dozen balls.", true, third)) hands.throw_many();
   ImGui::SameLine();
   const std::size_t thrown = simulation.present().setup().thrown.size();
   if (button(gui, "balls/clear", "Clear",
-             thrown > 0 ? fmt::format("Remove the {} thrown balls; the scene's own stay.", thrown)
-                        : std::string("There are no thrown balls; the scene's own stay."),
+             thrown > 0 ? fmt::format("Removes the {} thrown balls; those of the scene stay.", thrown)
+                        : std::string("There are no thrown balls; those of the scene stay."),
              thrown > 0, third))
     hands.clear_balls();
   slider(gui, "Radius", "balls/radius", hands.radius, 0.02, 2.0, "%.3g m",
-         "Radius of the next ball to be thrown [m], 0.02 to 2.");
+         "Sets the radius of the next thrown ball [m], 0.02 to 2.");
   slider(gui, "Mass", "balls/mass", hands.mass, 0.01, 1000.0, "%.3g kg",
-         "Mass of the next ball to be thrown [kg], 0.01 to 1000.");
+         "Sets the mass of the next thrown ball [kg], 0.01 to 1000.");
   slider(gui, "Speed", "balls/speed", hands.speed, 0.5, 200.0, "%.3g m/s",
-         "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
+         "Sets the speed of the next thrown ball [m/s], 0.5 to 200.");
   slider(gui, "Pull", "balls/strength", hands.strength, 0.01, 100.0, "×%.3g",
-         "How hard Ctrl+drag pulls, 0.01 to 100: a factor on twice the stiffness of the stiffest spring for "
-         "particles, on 200 N/m for each kilogram for balls; limited by the time step.");
+         "Sets the strength of Ctrl+drag, 0.01 to 100: a factor on twice the largest spring stiffness for "
+         "particles, on 200 N/m per kilogram for balls; the time step limits it.");
   ImGui::TextDisabled("%zu of the scene, %zu thrown",
                       static_cast<std::size_t>(simulation.model().ball_count()) - thrown, thrown);
 }

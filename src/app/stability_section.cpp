@@ -108,10 +108,8 @@ void take_cell(SceneControl& scenes, const StabilityCells& map, std::size_t cell
 
 std::string help_of(const StabilityCells& map, std::optional<std::size_t> cell) {
   std::string text =
-      "Time step across, stiffness of all springs up. Each cell is a run of the scene's bodies alone in "
-      "space: blue is stable; in hatched brown ones small motions grow. The line is the largest stable step "
-      "in theory, "
-      "the dot is where the scene is.";
+      "Shows a run of the bodies in space for each time step (across) and stiffness (up). Blue is stable, "
+      "hatched brown unstable. The line is the largest stable step in theory, the dot the scene.";
   if (!cell) return text;
   const double step = map.steps[*cell % map.steps.size()],
                stiffness = map.stiffness[*cell / map.steps.size()];
@@ -132,7 +130,7 @@ void stability_section(Gui& gui, SceneControl& scenes, StabilityMap& map) {
   if (!cells) {
     ImGui::TextWrapped(
         "%s", map.busy()
-                  ? "Looking at the springs…"
+                  ? "Analyzing the springs…"
                   : "No springs with a separate stiffness; those of a material follow its Young's modulus.");
     return;
   }
@@ -144,7 +142,7 @@ void stability_section(Gui& gui, SceneControl& scenes, StabilityMap& map) {
     ImGui::TextDisabled("   measuring…");
     gui.mark("stability/measuring");
     gui.keep_awake();
-    tooltip("Cells are computed in the background; grey cells are pending.");
+    tooltip("Aspic computes cells in the background; grey cells are pending.");
   }
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size = {std::max(60.0f, ImGui::GetContentRegionAvail().x - left), 170.0f * scale};

@@ -91,7 +91,7 @@ void copy_camera(const View& view, const WindowServices& services, Messages& mes
       fmt::format("camera = {{ position = {}, target = {}, fov = {}, projection = \"{}\" }}",
                   toml_value(c.position), toml_value(c.target), toml_value(c.fov), name_of(c.projection));
   if (services.set_clipboard) services.set_clipboard(text);
-  messages.info("The camera is on the clipboard, as a line for [view] of a scene file.");
+  messages.info("Copied the camera to the clipboard, as a line for [view] of a scene file.");
 }
 
 void paste_camera(View& view, const Scene& scene, const WindowServices& services, Messages& messages) {
@@ -101,8 +101,8 @@ void paste_camera(View& view, const Scene& scene, const WindowServices& services
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
   if (text.empty()) {
     return messages.refuse(
-        "The clipboard holds no camera. One looks like camera = { position = [10.0, 6.0, 14.0], target = "
-        "[0.0, 2.0, 0.0], fov = 45.0 }.");
+        "The clipboard holds no camera. Copy a line such as camera = { position = [10.0, 6.0, 14.0], target "
+        "= [0.0, 2.0, 0.0], fov = 45.0 }.");
   }
   const std::vector<std::string> set = {"view.camera=" + text};
   const auto pasted = with_overrides(scene, set);

@@ -53,9 +53,9 @@ void camera_buttons(Gui& gui, CameraControl& camera) {
   command_button(gui, "camera/home", "Scene camera", "Returns to the scene's own camera.", "reset the camera",
                  true, half);
   ImGui::SameLine();
-  command_button(gui, "camera/frame", "Frame bodies", "Moves the camera until all bodies are in the picture.",
+  command_button(gui, "camera/frame", "Frame bodies", "Moves the camera until all bodies are in the image.",
                  "frame the bodies", true, half);
-  command_button(gui, "camera/copy", "Copy", "Copies the camera as text, a line for [view] of a scene file.",
+  command_button(gui, "camera/copy", "Copy", "Copies the camera as a line for [view] of a scene file.",
                  "copy the camera as text", true, half);
   ImGui::SameLine();
   command_button(gui, "camera/paste", "Paste", "Sets the camera from the clipboard.", "paste a camera", true,
@@ -67,9 +67,9 @@ struct CutPreset {
   Vec3 normal;
 };
 const CutPreset cut_presets[] = {
-    {"cut/x", "X", "Cuts across the x axis: the side of larger x is taken away.", {1, 0, 0}},
-    {"cut/y", "Y", "Cuts across the y axis: the upper side is taken away.", {0, 1, 0}},
-    {"cut/z", "Z", "Cuts across the z axis: the side of larger z is taken away.", {0, 0, 1}},
+    {"cut/x", "X", "Cuts across the x axis and hides the side of larger x.", {1, 0, 0}},
+    {"cut/y", "Y", "Cuts across the y axis and hides the upper side.", {0, 1, 0}},
+    {"cut/z", "Z", "Cuts across the z axis and hides the side of larger z.", {0, 0, 1}},
 };
 
 void cut_widgets(Gui& gui, SceneControl& scene, const CameraSettings& camera) {
@@ -83,8 +83,8 @@ void cut_widgets(Gui& gui, SceneControl& scene, const CameraSettings& camera) {
     if (button(gui, p.name, p.label, p.help, true, quarter)) turn(p.normal);
     ImGui::SameLine();
   }
-  if (button(gui, "cut/to-the-eye", "Eye", "Cuts across the view: what is nearer to the eye is taken away.",
-             true, quarter))
+  if (button(gui, "cut/to-the-eye", "Eye",
+             "Cuts parallel to the screen and hides the half nearer the camera.", true, quarter))
     turn((1.0 / length(camera.position - camera.target)) * (camera.position - camera.target));
   edit(gui, scene, "view.cut.normal", 0, {"Normal"});
   edit(gui, scene, "view.cut.offset", 0, {"Offset"});
@@ -95,18 +95,18 @@ void text_size(Gui& gui, Layout& layout) {
   static double dragged = 1.0;
   static bool held = false;
   if (!held) dragged = layout.text_size;
-  if (slider(
-          gui, "Text size", "layout/text-size", dragged, Layout::smallest_text, Layout::largest_text, "×%.2f",
-          "Size of text and panels, a factor from 0.75 to 2.5 on that of the display: larger for a lecture "
-          "hall. Remembered when the window is closed.\nDrag to change, Ctrl+click to type.",
-          false))
+  if (slider(gui, "Text size", "layout/text-size", dragged, Layout::smallest_text, Layout::largest_text,
+             "×%.2f",
+             "Sets the size of text and panels, from 0.75 to 2.5. Kept for the next session.\nDrag to "
+             "change, Ctrl+click to type.",
+             false))
     layout.text_size = dragged;
   held = ImGui::IsItemActive();
 }
 
 void layout_widgets(Gui& gui, Layouts& layout) {
   std::vector<std::string_view> names, titles;
-  std::string help = "How the window is arranged; each layout keeps what is changed in it.\n";
+  std::string help = "Arranges the window; each layout keeps its own changes.\n";
   for (const LayoutRow& row : layouts()) {
     names.push_back(row.name);
     titles.push_back(row.title);
@@ -119,13 +119,9 @@ void layout_widgets(Gui& gui, Layouts& layout) {
     layout.choose(layouts()[index]);
   text_size(gui, layout);
   check_box(gui, "large clock", "layout/clock", layout.clock,
-            "The time in large figures in a corner of the picture, as in a lecture. Not in films, and not "
-            "with runs side by side, whose labels tell it.");
+            "Shows a large clock in a corner, except in videos and comparisons.");
   if (button(gui, "layout/reset", "Reset layout",
-             "Resets this layout's panels, their widths and the size of text to their defaults. Scene and "
-             "camera are "
-             "unchanged.",
-             true, -1.0f))
+             "Resets the panels, their widths and the text size. Scene and camera stay.", true, -1.0f))
     layout.reset();
 }
 
@@ -139,7 +135,7 @@ void follow_choice(Gui& gui, SceneControl& scene) {
   label_column("Follow");
   const Parameter& p = *find_parameter("view.follow");
   if (choice(gui, "view.follow", names, names, index,
-             fmt::format("{} The key {} follows what is under the mouse.\n\nScene key: view.follow",
+             fmt::format("{} The key {} follows the body under the mouse.\n\nScene key: view.follow",
                          p.meaning, gui.commands().keys_of("follow the body under the mouse"))))
     set_followed(scene, index == 0 ? std::nullopt : std::optional(std::string(names[index])));
 }
@@ -168,8 +164,7 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const Qu
   edit(gui, scene, "view.terrain");
   edit(gui, scene, "view.ground", 0, {"Grid at height"});
   check_box(gui, "shadows", "view/shadows", shadows,
-            "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
-            "this window only; aspic run always draws them.");
+            "Shows shadows on terrain in this window. Frames take less time without.");
   edit(gui, scene, "view.axes");
   camera_buttons(gui, camera);
   follow_choice(gui, scene);

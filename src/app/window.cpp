@@ -13,8 +13,7 @@ namespace aspic::app {
 namespace {
 
 constexpr const char* instead =
-    "Without a window, aspic run simulates headless, and aspic run SCENE --video FILE.mp4 draws what the "
-    "window would show.";
+    "To simulate without a window, run aspic run SCENE. aspic run SCENE --video FILE.mp4 makes a video.";
 
 std::string last_error() {
   const char* text = nullptr;
@@ -31,11 +30,11 @@ std::string no_display() {
   const std::string_view built = glfwGetVersionString();
   const bool x = std::getenv("DISPLAY"), wayland = std::getenv("WAYLAND_DISPLAY"),
              for_x = built.find("X11") != built.npos, for_wayland = built.find("Wayland") != built.npos;
-  if (!x && !wayland) return "there is no display, neither DISPLAY nor WAYLAND_DISPLAY is set";
+  if (!x && !wayland) return "there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set";
   if (!x && !for_wayland)
-    return "GLFW was built for X11 alone, and DISPLAY is not set. Install xwayland or libglfw3-wayland";
+    return "GLFW supports X11 only, and DISPLAY is not set. Install xwayland or libglfw3-wayland";
   if (!wayland && !for_x)
-    return "GLFW was built for Wayland alone, and WAYLAND_DISPLAY is not set. Install libglfw3";
+    return "GLFW supports Wayland only, and WAYLAND_DISPLAY is not set. Install libglfw3";
   return "the display does not answer";
 }
 
@@ -76,7 +75,7 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   const FlushDenormals flush;  // the driver's threads inherit it
   std::unique_ptr<Window> w(new Window);
   if (!glfwInit())
-    return fail(ErrorCode::no_device, "No window can be opened: {} ({}). {}", no_display(), last_error(),
+    return fail(ErrorCode::no_device, "Cannot open a window: {} ({}). {}", no_display(), last_error(),
                 instead);
   w->initialised_ = true;
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -96,8 +95,8 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   }
   if (!w->window_)
     return fail(ErrorCode::no_device,
-                "No window with OpenGL 4.3 core can be opened: {}. Install a newer driver "
-                "(libgl1-mesa-dri has a software one). {}",
+                "Cannot open a window with OpenGL 4.3 core: {}. Install a newer driver (libgl1-mesa-dri has "
+                "a software one). {}",
                 last_error(), instead);
   if (position && on_a_monitor(*position)) glfwSetWindowPos(w->window_, (*position)[0], (*position)[1]);
   glfwShowWindow(w->window_);

@@ -48,17 +48,17 @@ TEST(Arithmetic, ErrorsSayWhatAndWhere) {
   wrong("", "number is missing", 0);
   wrong("2*", "number is missing", 2);
   wrong("2*(3+1", "closing parenthesis", 6);
-  wrong("2)", "not opened", 1);
+  wrong("2)", "no opening one", 1);
   wrong("2 3", "between two numbers", 2);
-  wrong("2*k", "number is expected", 2);
-  wrong("nan", "number is expected", 0);
-  wrong("inf", "number is expected", 0);
+  wrong("2*k", "expected a number", 2);
+  wrong("nan", "expected a number", 0);
+  wrong("inf", "expected a number", 0);
   wrong("1,5", "point", 1);
-  wrong("1/ 0", "divides by 0", 3);
-  wrong("1e999", "too large", 0);
+  wrong("1/ 0", "division by 0", 3);
+  wrong("1e999", "out of range", 0);
   wrong("1e300*1e300", "finite", 0);
-  EXPECT_THAT(evaluate(std::string(200, '(')).error().message(), HasSubstr("too many"));
-  EXPECT_THAT(evaluate(std::string(200, '-') + "1").error().message(), HasSubstr("too many"));
+  EXPECT_THAT(evaluate(std::string(200, '(')).error().message(), HasSubstr("nested too deeply"));
+  EXPECT_THAT(evaluate(std::string(200, '-') + "1").error().message(), HasSubstr("nested too deeply"));
   EXPECT_TRUE(evaluate(std::string(90, '(') + "1" + std::string(90, ')')).ok());
 }
 

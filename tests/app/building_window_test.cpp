@@ -178,7 +178,7 @@ TEST_F(Building, RefusedCellsWaitAndNothingIsLost) {
   // No cell is left: that waits as well.
   click("cells/clear");
   EXPECT_EQ(body().layers, (CellLayers{{"11.1", "11.1"}}));
-  EXPECT_THAT(app().cells.refusal(), HasSubstr("none of its cells is full"));
+  EXPECT_THAT(app().cells.refusal(), HasSubstr("all its cells are empty"));
   EXPECT_FALSE(has("cells/all"));
   click("cells/back");
   EXPECT_EQ(app().cells.voxels().layers, (CellLayers{{"11.1", "11.1"}}));
@@ -295,7 +295,7 @@ TEST_F(Building, APaletteGrowsAndCellsKeepTheirMaterial) {
   click("cells/palette/1/material/material-2");
   EXPECT_EQ(body().palette.at("1"), "material-2");
   frames(2);
-  EXPECT_THAT(explanations().at("cells/palette/2/remove"), HasSubstr("Cells are of it"));
+  EXPECT_THAT(explanations().at("cells/palette/2/remove"), HasSubstr("Erase its cells"));
   click("cells/palette/2/remove");
   EXPECT_EQ(body().palette.size(), 2u) << "cells are of it";
   erase({0, 0}, {0, 0});
@@ -321,7 +321,7 @@ TEST_F(Building, AMeshThatIsDroppedIsABodyAboveWhatIsThere) {
   ASSERT_EQ(settings().voxels.size(), 1u);
   EXPECT_EQ(app().scene.editor().source(), source) << "the scene that was open";
   EXPECT_FALSE(settings().voxels[0].skin.empty());
-  EXPECT_THAT(notice(), HasSubstr("pyramid.obj is a body now"));
+  EXPECT_THAT(notice(), HasSubstr("pyramid.obj is now a body"));
   EXPECT_THAT(notice(), HasSubstr("cells"));
   EXPECT_FALSE(app().messages.notice()->is_error);
   EXPECT_EQ(simulation().model().particle_count(), 27 + voxel_counts(settings().voxels[0]).particles);

@@ -407,7 +407,7 @@ TEST_F(Comparison, AFilmShowsAllRunsAsEachIsDrawnAlone) {
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
   frames_until([&] { return app().film.completing() == 0; });
   EXPECT_FALSE(app().picture.film || comparison_view().picture(1).film);
-  EXPECT_THAT(app().messages.notice()->text, HasSubstr("film holds 4 pictures"));
+  EXPECT_THAT(app().messages.notice()->text, HasSubstr("film holds 4 frames"));
 
   const std::string film = film_pixels(directory() / "film", 3);
   ASSERT_EQ(film.size(), 3u * static_cast<std::size_t>(size.width * size.height));

@@ -208,11 +208,11 @@ TEST_F(Files, AFileThatWasWrittenIsAChangeThatCanBeUndone) {
   frames(40);
   EXPECT_EQ(simulation().model().contact.restitution, 0.2);
   EXPECT_NE(simulation().model().contact.friction, 0.35);
-  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("Undo brings back"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("Undo restores"));
   EXPECT_FALSE(app().scene.editor().changed());
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   frames(3);
-  EXPECT_EQ(simulation().model().contact.friction, 0.35) << "what was changed here";
+  EXPECT_EQ(simulation().model().contact.friction, 0.35) << "the changes made here";
   EXPECT_TRUE(app().scene.editor().changed());
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
   frames(3);
@@ -315,7 +315,7 @@ TEST_F(Files, ThePaletteFindsValuesBeforeScenesAndSectionsToo) {
   ASSERT_TRUE(has("section/Stability"));
   EXPECT_TRUE(app().layout.sections.at("Stability"));
   EXPECT_LT(widgets().at("section/Stability").bottom, 720.0) << "scrolled into sight";
-  ask(U"types together");
+  ask(U"by material");
   EXPECT_TRUE(has("palette/section Springs"));
   app().cursor(middle_x(), app().view.box.bottom - 20.0);
   frames(1);
@@ -412,7 +412,7 @@ TEST_F(Files, AResetOutOfSightSaysSoAndAPullInAPauseIsStarted) {
   press(GLFW_KEY_R);
   frames(2);
   ASSERT_TRUE(app().messages.notice().has_value());
-  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("outside the picture"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("outside the image"));
   // Ctrl is held for the pull.
   press(GLFW_KEY_SPACE, GLFW_MOD_CONTROL);
   EXPECT_TRUE(simulation().running());

@@ -210,7 +210,7 @@ TEST_F(Film, TwoSecondsInEveryFilmFormat) {
     end_film();
     ASSERT_FALSE(app().messages.notice()->is_error) << app().messages.notice()->text;
     const std::string name = fmt::format("two.{}", format->name);
-    EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(name + " holds 20 pictures, 2.00 s at 10"));
+    EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(name + " holds 20 frames, 2.00 s at 10"));
     const std::string found = output_of(
         "ffprobe -v error -count_frames -show_entries "
         "stream=width,height,avg_frame_rate,nb_read_frames:format=duration -of "
@@ -427,7 +427,7 @@ TEST_F(Film, AnEncoderThatDiesEndsTheFilmAndNotTheMotion) {
   }
   ASSERT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("out of film"));
-  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("continues without a film"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("continues without a video"));
   EXPECT_TRUE(simulation().running());
   frames_to_step(simulation().step() + 100);
   EXPECT_FALSE(exists("film.mp4"));

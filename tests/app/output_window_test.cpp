@@ -141,7 +141,7 @@ TEST_F(Output, InputsOfAnotherSceneAreRefusedWithAWord) {
   ASSERT_TRUE(app().messages.notice());
   EXPECT_TRUE(app().messages.notice()->is_error);
   EXPECT_THAT(app().messages.notice()->text,
-              testing::AllOf(HasSubstr("are not for the scene"), HasSubstr("other.toml:4:"),
+              testing::AllOf(HasSubstr("do not fit the scene"), HasSubstr("other.toml:4:"),
                              HasSubstr("there is no particle 64")));
   EXPECT_EQ(simulation().step(), step) << "all stays as it was";
   EXPECT_TRUE(simulation().stepper().log().empty());

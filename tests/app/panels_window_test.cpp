@@ -153,7 +153,7 @@ TEST_F(Panels, NumbersAreTypedAsArithmetic) {
   EXPECT_EQ(settings().simulation.timestep, 1.0 / 1200.0) << "unchanged";
   ASSERT_TRUE(app().messages.notice().has_value());
   EXPECT_THAT(app().messages.notice()->text,
-              testing::HasSubstr("closing parenthesis is missing.\n1/(2*600\n        ^"));
+              testing::HasSubstr("closing parenthesis is missing here.\n1/(2*600\n        ^"));
   // So does a number that is not allowed, whether it is dragged, slid along or always text.
   const auto refused = [&](const std::string& widget, const std::string& text, bool control,
                            const std::string& why) {

@@ -112,7 +112,7 @@ TEST_F(Picture, AColourThatNeedsMoreThanABlockBecomesANotice) {
   frames(3);
   ASSERT_TRUE(app().messages.notice().has_value());
   EXPECT_TRUE(app().messages.notice()->is_error);
-  EXPECT_THAT(app().messages.notice()->text, ::testing::HasSubstr("This colour cannot be shown"));
+  EXPECT_THAT(app().messages.notice()->text, ::testing::HasSubstr("Cannot show this color"));
   EXPECT_THAT(app().messages.notice()->text, ::testing::HasSubstr("incident springs"));
   press(GLFW_KEY_SPACE);
   frames_to_step(3);

@@ -35,7 +35,7 @@ TEST_F(Plots, ActuatorsHaveACurveOfTheirWork) {
   ASSERT_TRUE(simulation().settle().ok());
   frames(2);
   EXPECT_TRUE(has("energy/plot/total"));
-  EXPECT_TRUE(has("energy/plot/done by actuators"));
+  EXPECT_TRUE(has("energy/plot/actuator work"));
   const auto& energies = simulation().samples().energies();
   EXPECT_EQ(energies.front().work, 0.0);
   EXPECT_GT(std::abs(energies.back().work.value_or(0.0)), 1.0);
@@ -43,7 +43,7 @@ TEST_F(Plots, ActuatorsHaveACurveOfTheirWork) {
   open("cube-plane", {}, "reference");
   frames(2);
   EXPECT_TRUE(has("energy/plot/total"));
-  EXPECT_FALSE(has("energy/plot/done by actuators"));
+  EXPECT_FALSE(has("energy/plot/actuator work"));
 }
 
 TEST_F(Plots, PlotsOfTwoRunsHaveTheSamePoints) {

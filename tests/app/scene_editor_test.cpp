@@ -136,7 +136,7 @@ TEST(SceneEditor, OpeningIsAnEntryThatComesBackToTheChanges) {
   EXPECT_EQ(editor.undo(), Effect::opening);
   EXPECT_EQ(editor.source(), "cube-plane");
   EXPECT_EQ(editor.scene().model.simulation.timestep, 0.002);
-  EXPECT_TRUE(editor.changed()) << "as it was left";
+  EXPECT_TRUE(editor.changed()) << "from the last session";
   EXPECT_EQ(editor.undo(), Effect::constants);
   EXPECT_FALSE(editor.changed());
   editor.redo();
