@@ -23,12 +23,13 @@ std::string_view remedy(int error_number) {
   switch (error_number) {
     case ENOSPC:
     case EDQUOT:
-      return "Free some space or choose another disk; nothing incomplete was left behind.";
+      return "Free some space or choose another disk. No incomplete file was left behind.";
     case EFBIG:
-      return "The file would be larger than the file system or the limit of this process (ulimit -f) allows.";
+      return "The file would exceed a limit of the file system or of this process (ulimit -f). Choose "
+             "another disk or raise the limit.";
     case EACCES:
     case EPERM:
-      return "Choose a place you have permission for.";
+      return "Choose a place where you have permission.";
     case EROFS:
       return "The file system is read-only: choose another place.";
     case ENOENT:
@@ -128,8 +129,7 @@ Result<FileStart> read_regular_file(const std::string& path, std::uint64_t most)
     const int reason = known ? EISDIR : errno;
     ::close(descriptor);
     if (!known || S_ISDIR(present.st_mode)) return file_error("read", path, reason);
-    return fail(ErrorCode::io,
-                "Cannot read {}: it is a device or a pipe, which may have no end. Give the name of a file.",
+    return fail(ErrorCode::io, "Cannot read {}: it is a device or a pipe. Give the name of a file.",
                 printable_line(path));
   }
   ASPIC_TRY(auto content, read_and_close(descriptor, most, path));

@@ -19,7 +19,7 @@ std::uint32_t little_endian(std::string_view bytes) {
 }
 
 Error refusal(std::string_view why) {
-  return fail(ErrorCode::scene_rejected, "it is no .npy file that can be read: {}", why);
+  return fail(ErrorCode::scene_rejected, "this .npy file cannot be read: {}", why);
 }
 
 /// What follows a key of the header's dictionary, without spaces.
@@ -56,13 +56,14 @@ std::optional<std::vector<std::size_t>> tuple_of(std::string_view text) {
 
 Result<NpyArray> NpyArray::read(std::string content) {
   const std::string_view all = content;
-  if (!all.starts_with(magic) || all.size() < 10) return refusal("it does not begin as one");
+  if (!all.starts_with(magic) || all.size() < 10)
+    return refusal("its first bytes are not those of a .npy file");
   const auto version = static_cast<unsigned char>(all[6]);
   if (version < 1 || version > 3) return refusal("its version is unknown");
   const std::size_t width = version == 1 ? 2 : 4;
-  if (all.size() < 8 + width) return refusal("it is cut short");
+  if (all.size() < 8 + width) return refusal("it is truncated");
   const std::size_t length = little_endian(all.substr(8, width));
-  if (length > longest_header || all.size() < 8 + width + length) return refusal("it is cut short");
+  if (length > longest_header || all.size() < 8 + width + length) return refusal("it is truncated");
   const std::string_view header = all.substr(8 + width, length);
   NpyArray array;
   array.data_ = 8 + width + length;
@@ -72,7 +73,7 @@ Result<NpyArray> NpyArray::read(std::string content) {
   if (!type || !order || !shape) return refusal("its header lacks a key");
   // 'descr' of numbers: byte order, kind, bytes, in quotation marks.
   if (type->size() < 5 || (type->front() != '\'' && type->front() != '"') || (*type)[4] != type->front())
-    return refusal("its elements are no numbers");
+    return refusal("its elements are not numbers");
   array.big_endian_ = (*type)[1] == '>';
   array.kind_ = (*type)[2];
   array.item_ = static_cast<std::size_t>((*type)[3] - '0');
@@ -82,7 +83,7 @@ Result<NpyArray> NpyArray::read(std::string content) {
   const bool truth = array.kind_ == 'b' && array.item_ == 1;
   const bool real = array.kind_ == 'f' && (array.item_ == 4 || array.item_ == 8);
   if (!order_known || !(whole || truth || real))
-    return refusal("its elements are neither whole numbers nor floats of 4 or 8 bytes");
+    return refusal("its elements are neither integers nor floats of 4 or 8 bytes");
   array.fortran_ = order->starts_with("True");
   if (!array.fortran_ && !order->starts_with("False")) return refusal("its order is unknown");
   const auto numbers = tuple_of(*shape);
@@ -95,7 +96,7 @@ Result<NpyArray> NpyArray::read(std::string content) {
     array.size_ *= along;
   }
   if (all.size() - array.data_ != array.size_ * array.item_)
-    return refusal("it has not as many bytes as its shape says");
+    return refusal("its size does not match its shape");
   array.content_ = std::move(content);
   return array;
 }

@@ -22,13 +22,13 @@ constexpr RemedyRow row_of(RemedyKind kind) {
       return {"use the backend \"{0}\"", "use --backend {0}", "switch to the {0} backend (key G)",
               "pass backend=\"{0}\""};
     case RemedyKind::draw_nothing:
-      return {"use the backend \"{0}\" without pictures", "use --backend {0} without pictures", "",
-              "pass backend=\"{0}\" and draw nothing"};
+      return {"use the backend \"{0}\" without images", "use --backend {0} without images", "",
+              "pass backend=\"{0}\" and render nothing"};
     case RemedyKind::overwrite:
       return {"pass Overwrite::allow", "overwrite with --force", "", "pass overwrite=True"};
     case RemedyKind::lower_fps:
       return {"set fps to {0} or less", "use --fps {0} or less",
-              "set Pictures to {0} per second or less (Recording)", "pass fps={0} or less"};
+              "set Frames to {0} per second or less (Recording)", "pass fps={0} or less"};
     case RemedyKind::raise_speed:
       return {"set speed to {0} or more", "use --speed {0} or more", "set Speed to ×{0} or more (Simulation)",
               "pass speed={0} or more"};
@@ -37,15 +37,15 @@ constexpr RemedyRow row_of(RemedyKind kind) {
     case RemedyKind::picture_size:
       return {"set size to {{{0}, {1}}}", "use --size {0}x{1}", "", "pass width={0}, height={1}"};
     case RemedyKind::write_pictures:
-      return {"write numbered pictures instead (PictureOutput::frames)",
-              "write numbered pictures instead (--frames)",
-              "write numbered pictures instead (Format under Recording)", "name a directory instead"};
+      return {"write numbered frames instead (PictureOutput::frames)",
+              "write numbered frames instead (--frames)",
+              "write numbered frames instead (Format under Recording)", "name a directory instead"};
     case RemedyKind::resume:
-      return {"read {0} with read_checkpoint()", "continue its run by aspic run --resume {0}",
-              "give it a name that ends in .aspic", "continue it with aspic.resume()"};
+      return {"read {0} with read_checkpoint()", "continue its run: aspic run --resume {0}",
+              "rename it to end in .aspic", "continue it with aspic.resume()"};
     case RemedyKind::replay:
-      return {"read {0} with read_inputs()", "give them to a scene: aspic run SCENE --replay {0}",
-              "open a scene, then {0}", "give {0} to Simulation.replay()"};
+      return {"read {0} with read_inputs()", "replay them in a scene: aspic run SCENE --replay {0}",
+              "open a scene, then {0}", "pass {0} to Simulation.replay()"};
     case RemedyKind::give_checkpoint:
       return {"give a file that write_checkpoint() wrote", "give a file that aspic run --checkpoint wrote",
               "open a file that Save checkpoint… wrote", "give a file that Simulation.save() wrote"};

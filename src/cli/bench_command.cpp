@@ -44,7 +44,7 @@ class Case {
     const Integrator integrator = settings.simulation.integrator;
     for (const BackendChoice& choice : options_.backends) {
       if (!works_with(choice.force_path, integrator)) {
-        print_message(fmt::format("skipped {} on the force path {}, which it does not have.",
+        print_message(fmt::format("skipped {} on the force path {}: it has no such path.",
                                   name_of(integrator), name_of(choice.force_path)));
         continue;
       }
@@ -161,9 +161,8 @@ Result<std::uint64_t> steps_for(Contestant& contestant, double seconds, std::uin
 std::string steps_warning(const Measurement& m, std::string_view option) {
   if (!m.counts() || m.steps >= fewest_steps) return "";
   return fmt::format(
-      "{}, {} per edge, {}: a repeat has {} step{}, and fewer than {} also measure the start and the end of "
-      "a "
-      "run. Raise {}.",
+      "{}, {} per edge, {}: a repeat has {} step{}; below {} the start and end of a run distort the result. "
+      "Raise {}.",
       m.name, m.size, name_of(m.integrator), m.steps, m.steps == 1 ? "" : "s", fewest_steps, option);
 }
 

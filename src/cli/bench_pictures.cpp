@@ -32,13 +32,12 @@ Json json_of_cost(const BenchOptions& options, const Scene& scene, const FrameCo
 
 std::string table_of_cost(const BenchOptions& options, const Scene& scene, const FrameCost& cost) {
   std::string text = fmt::format(
-      "{}, pictures of {} x {} on {}\n"
-      "{:.2f} ms a picture, {:.2f} ms of processor time; medians of {}, {:.2f} to {:.2f} ms\n\n"
-      "{:<24} {:>10} {:>14}\n",
+      "{}, images of {} x {} on {}\n{:.2f} ms per image, {:.2f} ms of CPU time; medians of {}, {:.2f} to "
+      "{:.2f} ms\n\n{:<24} {:>10} {:>14}\n",
       scene.name, options.pictures->width, options.pictures->height, cost.device,
       1e3 * quantile_of(cost.seconds, 0.5), 1e3 * quantile_of(cost.cpu_seconds, 0.5), cost.seconds.size(),
       1e3 * quantile_of(cost.seconds, 0.0), 1e3 * quantile_of(cost.seconds, 1.0), "pass by pass", "ms",
-      "processor ms");
+      "CPU ms");
   double sum = 0.0, processor_sum = 0.0;
   for (const gl::PassTime& pass : cost.passes) {
     text += fmt::format("{:<24} {:>10.3f} {:>14.3f}\n", pass.name, pass.milliseconds,

@@ -79,7 +79,7 @@ std::string table_line(const Measurement& m) {
                                  m.springs, m.timestep);
   if (m.peer && !m.peer->passed) {
     return line + fmt::format(
-                      "  not counted: after {} steps {:.2g} m off (at most {:.2g}), its centre {:.2g} m (at "
+                      "  not counted: after {} steps {:.2g} m off (at most {:.2g}), its center {:.2g} m (at "
                       "most {:.2g})\n",
                       m.peer->steps, m.peer->deviation, m.peer->bound, m.peer->fall, m.peer->fall_bound);
   }
@@ -100,7 +100,7 @@ std::string table_line(const Measurement& m) {
 /// Passes of one row, a line each.
 std::string pass_lines(const Measurement& m) {
   const double sum = m.kernel_milliseconds_per_step().value_or(0.0);
-  std::string text = fmt::format("\n{}, {} per edge, {}: {:.4g} ms of device time a step\n", m.name, m.size,
+  std::string text = fmt::format("\n{}, {} per edge, {}: {:.4g} ms of device time per step\n", m.name, m.size,
                                  name_of(m.integrator), sum);
   for (const gl::PassTime& pass : m.passes)
     text += fmt::format("  {:<24} {:>9.4f} ms {:>5.1f}% {:>7.1f} dispatches\n", pass.name, pass.milliseconds,
@@ -199,14 +199,10 @@ std::string table_of(const BenchReport& report) {
     if (!m.passes.empty()) text += pass_lines(m);
   }
   text +=
-      "\nms/step: time of a step in all; kernel: of it the device time of its passes [ms], in steps that are "
-      "not "
-      "counted;\n"
-      "ev./s: spring evaluations; spread: (slowest - fastest) / median; busy: processors in use; growth: "
-      "cost of\n"
-      "an evaluation relative to the first size; ratio: ev./s of the first row with this size over this "
-      "row's;\n"
-      "cpu r.: the same by processor time, for busy machines.\n";
+      "\nms/step: total time of a step; kernel: device time of its passes [ms], in separate steps;\nev./s: "
+      "spring evaluations; spread: (slowest - fastest) / median; busy: CPU cores in use; growth: cost of\nan "
+      "evaluation relative to the first size; ratio: ev./s of the first row with this size over this "
+      "row's;\ncpu r.: the same by CPU time, for busy machines.\n";
   if (report.interrupted)
     text += "Interrupted: rows that are missing or have fewer repeats were not finished.\n";
   return text;

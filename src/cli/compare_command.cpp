@@ -41,9 +41,8 @@ std::string inexact_arithmetic(const Backend& backend) {
   const GpuSolver* const gpu = gpu_of(backend);
   if (!gpu || gpu->arithmetic().exact()) return "";
   return fmt::format(
-      "{}: single operations are off by up to {} ULP; aspic verify --only equality tells whether that "
-      "explains a "
-      "difference",
+      "{}: single operations are off by up to {} ULP; run aspic verify --only equality to see whether that "
+      "explains a difference",
       backend.variant(), gpu->arithmetic().worst_ulps());
 }
 
@@ -142,7 +141,7 @@ Status execute(const CompareOptions& options) {
                 body_text(*second));
   }
   if (first || second) {
-    return fail(ErrorCode::diverged, "{} alone diverged, in step {} ({}).", backends[first ? 0 : 1].variant(),
+    return fail(ErrorCode::diverged, "only {} diverged, in step {} ({}).", backends[first ? 0 : 1].variant(),
                 (first ? *first : *second).step, body_text(first ? *first : *second));
   }
   if (!within) {

@@ -49,7 +49,7 @@ Status refuse_what_needs_one_run(const RunOptions& options) {
     return fail(ErrorCode::usage, "--variant starts every run at the scene's start: omit --resume.");
   if (!options.pictures.page_live.empty())
     return fail(ErrorCode::usage,
-                "a live page has one run: omit --variant, or write --html in place of --html-live.");
+                "a live page has one run: omit --variant, or write --html instead of --html-live.");
   for (const StateOutput& output : options.outputs)
     if (output.path.starts_with("/dev/"))
       return fail(ErrorCode::usage,
@@ -107,8 +107,7 @@ Result<std::shared_ptr<gl::Context>> shared_context(const RunOptions& options,
   auto context = gl::Context::create_headless();
   if (context) return context;
   if (!needed) return std::shared_ptr<gl::Context>();
-  return fail(context.error(), "pictures and the gpu backend need an OpenGL device. {}",
-              context.error().what);
+  return fail(context.error(), "images and the gpu backend need an OpenGL device. {}", context.error().what);
 }
 
 Status prepare(HeadlessVariants& variants, const std::vector<Difference>& differences, gl::Context* context,

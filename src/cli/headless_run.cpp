@@ -39,7 +39,7 @@ Status lost_error(const std::vector<Error>& failures, bool others) {
     text += (text.empty() ? "" : "\n") + worded(failure, FrontEnd::command_line);
   }
   if (text.empty()) return Error{closed_pipe, ""};
-  if (others) text += " All other files of the run were completed.";
+  if (others) text += " All other files of the run are complete.";
   return Error{code, text};
 }
 
@@ -109,7 +109,7 @@ Result<Outcome> HeadlessRun::outcome(std::uint64_t last_step) {
   outcome.state = std::move(state_);
   outcome.wall_seconds = seconds_ + seconds_since(before);
   if (const auto bad = first_not_finite(measure(solver_.model(), outcome.state, solver_.inputs()))) {
-    return fail(ErrorCode::diverged, "{} of step {} is not a finite number; the outputs were not completed.",
+    return fail(ErrorCode::diverged, "{} of step {} is not a finite number; the outputs are incomplete.",
                 *bad, outcome.state.step);
   }
   if (watch_) look(outcome.state);

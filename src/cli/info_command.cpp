@@ -43,12 +43,12 @@ std::vector<std::string> arithmetic_sentences(gl::Context& context) {
   if (!directory) return {worded(directory.error(), FrontEnd::command_line)};
   const auto arithmetic = gl::choose_arithmetic(context, gl::ShaderLibrary(*directory));
   if (!arithmetic)
-    return {"The arithmetic could not be measured: " + worded(arithmetic.error(), FrontEnd::command_line)};
+    return {"Cannot measure the arithmetic: " + worded(arithmetic.error(), FrontEnd::command_line)};
   return arithmetic->sentences();
 }
 
 std::string memory_words(const std::optional<std::uint64_t>& free_bytes) {
-  if (!free_bytes) return "the driver does not tell how much is free";
+  if (!free_bytes) return "the driver does not report free memory";
   return human_bytes(*free_bytes) + " free";
 }
 
@@ -121,7 +121,7 @@ Status execute(const InfoOptions& options) {
     text += fmt::format("\nNo usable GL device: {}\n", no_context);
   }
   text += fmt::format("\nShader cache: {}\n", words_for(shader_cache));
-  text += fmt::format("\nBackend auto: {}, since {}.\n", chosen, automatic.reason);
+  text += fmt::format("\nBackend auto: {}, because {}.\n", chosen, automatic.reason);
   if (!automatic.detail.empty()) text += automatic.detail + "\n";
   return print_text(text);
 }

@@ -36,21 +36,20 @@ Status execute(const ViewOptions& options) {
   const NotStarted error = become("aspic-view", options.words);
   if (error.reason == ENOENT)
     return fail(ErrorCode::no_device,
-                "There is no {}: this aspic was built without the window. Install libglfw3-dev and "
+                "Cannot find {}: this aspic was built without the window. Install libglfw3-dev and "
                 "libimgui-dev and build again; aspic run SCENE --video FILE.mp4 needs no window.",
                 error.program);
-  return fail(ErrorCode::no_device,
-              "{} cannot be started: {}. Its libraries may be missing; aspic run SCENE --video FILE.mp4 "
-              "needs no window.",
-              error.program, std::strerror(error.reason));
+  return fail(
+      ErrorCode::no_device,
+      "Cannot start {}: {}. Its libraries may be missing; aspic run SCENE --video FILE.mp4 needs no window.",
+      error.program, std::strerror(error.reason));
 }
 
 Status execute_study(const std::vector<std::string>& arguments) {
   const NotStarted error = become("aspic-studies", arguments);
   return fail(ErrorCode::io,
-              "{} cannot be started: {}. It has the commands bench, report, sweep and verify. Run "
-              "scripts/run.sh info "
-              "in the checkout to build it, or install Aspic again.",
+              "Cannot start {}: {}. It has the commands bench, report, sweep and verify. Run scripts/run.sh "
+              "info in the checkout to build it, or install Aspic again.",
               error.program, std::strerror(error.reason));
 }
 

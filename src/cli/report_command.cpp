@@ -33,10 +33,10 @@ Status execute(const ReportOptions& options) {
   plan.force = options.force;
   plan.jobs = options.jobs;
   ASPIC_TRY(const auto summary, report::write_report(std::move(plan), interrupt));
-  if (!summary.no_pictures.empty()) print_warning("no pictures: " + summary.no_pictures);
+  if (!summary.no_pictures.empty()) print_warning("no images: " + summary.no_pictures);
   if (!summary.no_pdf.empty()) print_message("no PDF: " + summary.no_pdf);
   if (summary.pages && summary.most_pages && *summary.pages > *summary.most_pages)
-    print_warning(fmt::format("report.pdf has {} pages; the course takes {} at most.", *summary.pages,
+    print_warning(fmt::format("report.pdf has {} pages; the course accepts at most {}.", *summary.pages,
                               *summary.most_pages));
   if (options.json) {
     return print_data(to_text({{"files", summary.files},

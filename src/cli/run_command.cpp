@@ -66,8 +66,7 @@ Result<Start> load_start(const RunOptions& options) {
   ASPIC_TRY(auto checkpoint, read_checkpoint(options.resume_file));
   auto scene = parse_scene(checkpoint.scene, options.resume_file);
   if (!scene) {
-    return fail(scene.error(),
-                "the scene inside the checkpoint, written by aspic {}, is not accepted by aspic {}:\n{}",
+    return fail(scene.error(), "aspic {} wrote the scene inside the checkpoint, and aspic {} rejects it:\n{}",
                 checkpoint.program_version, ASPIC_VERSION, scene.error().what);
   }
   ASPIC_CHECK(check_against_scene(checkpoint, scene->model, options.resume_file));
@@ -82,7 +81,7 @@ Result<Start> load_start(const RunOptions& options) {
     }
   }
   if (options.precision_given && options.backend.precision != checkpoint.state.precision) {
-    return fail(ErrorCode::usage, "{} was written in {} precision: resume it without --precision.",
+    return fail(ErrorCode::usage, "{} has a state in {} precision: omit --precision to resume it.",
                 options.resume_file, name_of(checkpoint.state.precision));
   }
   ASPIC_TRY(start.scene, with_view(std::move(*scene), options.view, by_view));
@@ -106,11 +105,10 @@ Result<InputLog> inputs_of_run(const RunOptions& options, const Start& start, co
   before.forget_from(start.state->step);
   kept.forget_from(start.state->step);
   if (before == kept) return given;
-  return fail(
-      ErrorCode::scene_rejected,
-      "{} has other inputs before step {}, where {} continues, than the run had so far: omit --resume "
-      "to replay from the start, or omit --replay to continue with the checkpoint's inputs.",
-      printable_line(options.replay_file), start.state->step, printable_line(options.resume_file));
+  return fail(ErrorCode::scene_rejected,
+              "{} has other inputs before step {}, where {} continues, than the run had so far. Omit "
+              "--resume to replay from the start, or omit --replay to continue with the checkpoint's inputs.",
+              printable_line(options.replay_file), start.state->step, printable_line(options.resume_file));
 }
 
 /// `recorder` is null where no pictures are wanted. A run that loses its pictures continues if it writes
@@ -173,8 +171,8 @@ Status execute(const RunOptions& options) {
   ASPIC_TRY(const auto steps, steps_of(options.length, start.scene.model.simulation));
   if (start.state && start.state->step > steps) {
     return fail(ErrorCode::usage,
-                "{} is already at step {}, but the run is to end at step {}; --steps and --duration count "
-                "from the scene's start.",
+                "{} is already at step {}, but the run ends at step {}. Raise --steps or --duration, which "
+                "count from the scene's start.",
                 options.resume_file, start.state->step, steps);
   }
   const std::uint64_t first_step = start.state ? start.state->step : 0;
@@ -231,7 +229,7 @@ Status execute(const RunOptions& options) {
   if (outcome.divergence) return divergence_error(model, outcome, interrupt);
   if (outcome.interrupted) {
     const auto checkpoint = std::ranges::find(options.outputs, "checkpoint", &StateOutput::option);
-    return fail(ErrorCode::interrupted, "interrupted at step {} of {}; all files were completed.{}",
+    return fail(ErrorCode::interrupted, "interrupted at step {} of {}; all files are complete.{}",
                 outcome.state.step, steps,
                 checkpoint == options.outputs.end() || checkpoint->path.empty()
                     ? ""

@@ -119,7 +119,7 @@ std::string to_text(const RunReport& run) {
       m.kinetic, m.elastic, m.contact ? fmt::format(" ({:.3g} J of contact)", *m.contact) : "",
       m.gravitational, m.total());
   if (outcome.actuator_work)
-    text += fmt::format("actuators    did {:.6g} J, by the rows of the series\n", *outcome.actuator_work);
+    text += fmt::format("actuators    work {:.6g} J (integrated over the series)\n", *outcome.actuator_work);
   text += fmt::format("extremes     fastest {:.6g} m/s, lowest y = {:.6g} m\n", m.max_speed, m.min_height);
   if (outcome.solves) {
     const SolveStatistics& s = *outcome.solves;
@@ -149,8 +149,7 @@ Json to_json(const FrameTimes& t, const std::string& device) {
 void print_frame_times(const FrameTimes& t, const std::string& device) {
   const auto ms = [&](double seconds) { return 1000.0 * t.per_frame(seconds); };
   print_message(fmt::format(
-      "{} picture{} on {}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} "
-      "ms.",
+      "{} frame{} on {}; per frame: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} ms.",
       t.frames, t.frames == 1 ? "" : "s", device, ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
 }
 

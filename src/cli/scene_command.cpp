@@ -192,7 +192,7 @@ std::string actuators_text(const Model& model) {
   if (text.empty()) return text;
   return text + fmt::format(
                     "actuation    shortest rest length {:.4g} of that at rest; held there, its springs would "
-                    "have {:.4g} J\n",
+                    "store {:.4g} J\n",
                     shortest_share(model), largest_actuation_energy(model));
 }
 
@@ -205,8 +205,8 @@ std::vector<std::string> idle_keys(const ModelSettings& settings) {
                           const OptionalSpringSettings& otherwise) {
       if (spring.stiffness == 0.0 && spring.damping != otherwise.damping)
         notes.push_back(fmt::format(
-            "goal-net[{}].{}.damping has no effect: its {}.stiffness is 0, so there are no such springs.", n,
-            kind, kind));
+            "goal-net[{}].{}.damping has no effect: its {}.stiffness is 0, so the net has no such springs.",
+            n, kind, kind));
     };
     if (net.material) continue;
     look("shear", net.shear, usual.shear);
@@ -232,13 +232,13 @@ Status execute(const SceneImportOptions& options) {
   if (names_mesh(options.file)) return import_as_body(options);
   if (options.cells || options.height || options.up || options.pieces)
     return fail(ErrorCode::usage,
-                "--cells, --height, --up and --pieces are for meshes, and {} is none: those end in .obj, "
-                ".stl or .ply.",
+                "--cells, --height, --up and --pieces apply to mesh files only (.obj, .stl, .ply), and {} is "
+                "not one.",
                 printable_line(options.file));
   if (is_another_mesh(options.file))
     return fail(ErrorCode::scene_rejected,
-                "{}: meshes are read from .obj, .stl and .ply files; convert it, in Python for example by "
-                "trimesh.load(…, force=\"mesh\").export(\"mesh.ply\").",
+                "{}: unsupported mesh format (supported: .obj, .stl and .ply). Convert it, for example in "
+                "Python by trimesh.load(…, force=\"mesh\").export(\"mesh.ply\").",
                 printable_line(options.file));
   ASPIC_TRY(const auto text, read_file(options.file));
   ASPIC_TRY(const auto imported, import_configuration(text, options.file));
@@ -327,7 +327,7 @@ Status execute(const SceneCheckOptions& options) {
     text += fmt::format("memory       {:<24} {:>10}\n", "model", human_bytes(model_bytes(model)));
     text += fmt::format("memory       {:<24} {:>10}\n", "state", human_bytes(state_bytes(counts)));
     if (crowd)
-      text += fmt::format("memory       not known of backends: more than {} bodies are in one place\n",
+      text += fmt::format("memory       unknown for backends: more than {} bodies are in one place\n",
                           most_crowded);
     for (const auto& [backend, bytes] : backend_bytes) {
       text += bytes ? fmt::format("memory       {:<24} {:>10}, a run {}\n", backend, human_bytes(*bytes),

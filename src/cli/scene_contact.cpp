@@ -39,9 +39,9 @@ std::string pairing_name(const ContactPairing& pairing, const ContactFacts& fact
 
 /// Up to where nothing passes, and why.
 std::string speed_text(const ContactPairing& pairing, const ContactFacts& facts) {
-  const std::string upto = fmt::format("nothing passes up to {:.3g} m/s, ", pairing.speed());
-  if (pairing.speed() == pairing.step_speed) return upto + "by the way in a step";
-  if (pairing.speed() == pairing.sheet_speed) return upto + "by what a push of a sheet holds";
+  const std::string upto = fmt::format("no penetration below {:.3g} m/s, ", pairing.speed());
+  if (pairing.speed() == pairing.step_speed) return upto + "limited by the distance per step";
+  if (pairing.speed() == pairing.sheet_speed) return upto + "limited by the normal force of a sheet";
   const ContactKind &a = facts.kinds[pairing.a], &b = facts.kinds[pairing.b];
   const ContactKind& slower = a.share() * a.sound <= b.share() * b.sound ? a : b;
   return upto + fmt::format("{:.2g} of the speed of sound {:.3g} m/s", pairing.sound_speed / slower.sound,
@@ -79,7 +79,8 @@ std::string contact_text(const Scene& scene, const Model& model, const ContactFa
     line(fmt::format("and {} more pairs of kinds", facts.pairings.size() - most_pairings));
   for (const ContactKind& kind : facts.kinds)
     if (kind.stack && model.contact.bodies)
-      line(fmt::format("{}: a stack of such stands up to {:.3g} m high", names_of(kind, names), *kind.stack));
+      line(
+          fmt::format("{}: a stack of these is stable up to {:.3g} m\n", names_of(kind, names), *kind.stack));
   return text;
 }
 
@@ -123,16 +124,15 @@ std::vector<std::string> contact_warnings(const Model& model, const ContactFacts
   std::vector<std::string> warnings;
   const SimulationSettings& simulation = model.simulation;
   if (const double zeta = least_zeta(model, facts); zeta > model.contact.body_damping)
-    warnings.push_back(
-        fmt::format("impacts of bodies gain energy under explicit-euler: contact.body-damping is {:g}, and "
-                    "{:.2g} is needed "
-                    "at this time step; raise it, lower simulation.timestep, or use symplectic-euler.",
-                    model.contact.body_damping, zeta));
+    warnings.push_back(fmt::format(
+        "impacts of bodies gain energy under explicit-euler: contact.body-damping is {:g}, and this time "
+        "step needs {:.2g}. Raise it, lower simulation.timestep, or use symplectic-euler.",
+        model.contact.body_damping, zeta));
   const auto at = std::ranges::find(explicit_integrators, simulation.integrator);
   if (at == std::end(explicit_integrators) || limits.faces.empty()) return warnings;
   const StabilityLimit& limit = limits.faces[static_cast<std::size_t>(at - std::begin(explicit_integrators))];
   if (exceeds(simulation.timestep, limit))
-    warnings.push_back(fmt::format("while bodies touch, {}",
+    warnings.push_back(fmt::format("during contact of bodies, {}",
                                    unstable_sentence(simulation.timestep, simulation.integrator, limit)));
   return warnings;
 }

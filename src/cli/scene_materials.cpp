@@ -68,9 +68,8 @@ std::string materials_text(const ModelSettings& settings) {
     std::string names = fmt::format("cube[{}]", e.cubes.front());
     if (e.cubes.size() > 1) names = fmt::format("{} cubes from cube[{}] on", e.cubes.size(), e.cubes.front());
     text += fmt::format(
-        "material     {}: k = {:g} N/m at this resolution equals E = {}, density {:.3g} kg/m³; twice the "
-        "particles along each edge would make them {} and {:.3g} kg/m³; impacts above {:.3g} m/s flatten "
-        "cells\n",
+        "material     {}: k = {:g} N/m at this resolution equals E = {}, density {:.3g} kg/m³; with twice "
+        "the particles along each edge, {} and {:.3g} kg/m³; impacts above {:.3g} m/s flatten cells\n",
         names, e.stiffness, pascal(e.youngs_modulus), e.density, pascal(modulus_of(cube, 2)),
         density_of(cube, 2), e.sound);
   }

@@ -95,7 +95,7 @@ Status execute(const VerifyOptions& options) {
       context = std::move(*made);
       device = context->info().renderer;
     } else {
-      print_warning("no usable GL device; checks that need one are not run. " +
+      print_warning("no usable GL device; checks that need one are skipped. " +
                     worded(made.error(), FrontEnd::command_line));
     }
   } else {
@@ -124,8 +124,8 @@ Status execute(const VerifyOptions& options) {
   if (failed > 0) return fail(ErrorCode::check_failed, "{} of {} checks failed.", failed, rows.size());
   if (not_run > 0 && options.require_gpu) {
     return fail(ErrorCode::check_failed,
-                "{} of {} checks were not run because there is no GL device, and --require-gpu was given.",
-                not_run, rows.size());
+                "{} of {} checks did not run: --require-gpu was given, and there is no GL device.", not_run,
+                rows.size());
   }
   return {};
 }

@@ -39,7 +39,7 @@ std::string check_number(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range)
-    return fmt::format("{} is too large or too small: the largest number is 1.8e308", shown);
+    return fmt::format("{} is out of range: the largest number is 1.8e308", shown);
   if (error != std::errc() || end != text.data() + text.size())
     return fmt::format("\"{}\" is not a number", shown);
   return "";

@@ -57,7 +57,7 @@ CLI::App* add_command(CLI::App& parent, const char* name, const char* summary, c
   return parent.add_subcommand(name, summary)->footer(footer);
 }
 
-void add_json(CLI::App* c, bool& json, const char* help = "result on stdout as JSON") {
+void add_json(CLI::App* c, bool& json, const char* help = "print the result as JSON") {
   c->add_flag("--json", json, help);
 }
 
@@ -65,7 +65,7 @@ void add_json(CLI::App* c, bool& json, const char* help = "result on stdout as J
 CLI::App* with_shader_cache(CLI::App* c) {
   c->add_flag_callback(
       "--no-shader-cache", [] { ::setenv("ASPIC_SHADER_CACHE", "off", 1); },
-      "compile all shaders again, and keep none for the next start");
+      "compile all shaders again and cache none");
   return c;
 }
 
@@ -77,7 +77,7 @@ void add_arithmetic(CLI::App* c, RawOptions& raw) {
   add(c, "--arithmetic", "NAME", raw.arithmetic,
       "exact: the reference's bits, or fast: other last bits (gpu and cpu)");
   add(c, "--threads", "N", raw.threads,
-      "threads of the cpu backend, 1 to 1024; default: as many as are worthwhile", few);
+      "threads of the cpu backend, 1 to 1024; default: by size of the scene", few);
 }
 
 void add_backend(CLI::App* c, RawOptions& raw) {
@@ -89,7 +89,7 @@ void add_backend(CLI::App* c, RawOptions& raw) {
 
 void add_length(CLI::App* c, RunLength& length) {
   auto* steps = add(c, "--steps", "N", length.steps, "simulate up to this step");
-  add(c, "--duration", "S", length.duration, "simulate up to this time, in seconds; default: the scene's")
+  add(c, "--duration", "S", length.duration, "simulate up to this time in seconds; default: the scene's")
       ->excludes(steps);
 }
 
@@ -97,16 +97,16 @@ void add_pictures(CLI::App* c, RunOptions& run, RawOptions& raw) {
   PictureOutput& pictures = run.pictures;
   add(c, "--video", "FILE", pictures.video,
       fmt::format("write a video: {} (needs ffmpeg)", film_endings(false)));
-  add(c, "--frames", "DIR", pictures.frames, "write numbered pictures into a directory");
+  add(c, "--frames", "DIR", pictures.frames, "write numbered frames into a directory");
   add(c, "--html", "FILE", pictures.page,
-      "write a page for browsers (.html): orbit, play, colours, energies; with --variant all runs in one");
+      "write a page to play in a browser (.html); with --variant all runs in one");
   add(c, "--html-live", "FILE", pictures.page_live,
-      "the same, but the browser simulates, with sliders, and compares its bits with this run's");
+      "the same, simulated in the browser, with sliders and a check of the bits");
   add(c, "--frames-format", "NAME", raw.frames_format, film_endings(true));
-  add(c, "--fps", "F", pictures.fps, "pictures per second shown; default 60, for a GIF 50");
+  add(c, "--fps", "F", pictures.fps, "frames per second shown; default 60, for a GIF 50");
   add(c, "--speed", "X", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion");
-  add(c, "--size", "WxH", raw.size, "size of the pictures in pixels");
-  add(c, "--text", "on|off", raw.text, "text on the pictures: on or off");
+  add(c, "--size", "WxH", raw.size, "size of the images in pixels");
+  add(c, "--text", "on|off", raw.text, "text on the images: on or off");
   c->add_flag("--no-text", raw.no_text, "the same as --text off");
   add(c, "--view", "KEY=VALUE", run.view,
       "set a value of the scene's view, e.g. camera.position=[8,4,12]; repeatable");
@@ -125,7 +125,7 @@ void add_outputs(CLI::App* c, std::vector<StateOutput>& outputs) {
 }
 
 CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
-  CLI::App* c = add_command(app, "run", "Simulate a scene headless", run_examples);
+  CLI::App* c = add_command(app, "run", "Simulate a scene without a window", run_examples);
   add(c, "scene", "SCENE", run.scene, "scene file or built-in name; not needed with --resume");
   add_backend(c, raw);
   add_length(c, run.length);
@@ -133,12 +133,12 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add_outputs(c, run.outputs);
   add_pictures(c, run, raw);
   add(c, "--variant", "KEY=VALUE", run.differences,
-      "a further run with this difference, e.g. integrator=implicit-euler, h=0.002; up to three");
+      "add a run with this difference, e.g. integrator=implicit-euler, h=0.002; up to three");
   add(c, "--resume", "FILE", run.resume_file,
       "continue from a checkpoint; --steps and --duration count from the scene's start");
-  add(c, "--replay", "FILE", run.replay_file, "pulls and pins by step, as the window records them");
+  add(c, "--replay", "FILE", run.replay_file, "replay pulls and pins by step, saved by the window");
   c->add_flag("--force", run.force, "overwrite files");
-  add_json(c, run.json, "summary on stdout as JSON");
+  add_json(c, run.json, "print the summary as JSON");
   return c;
 }
 
@@ -148,7 +148,7 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
   add(c, "--backend", "NAME", raw.backend, backend_words() + "; G switches it in the window");
   add_arithmetic(c, raw);
   add_overrides(c, view.overrides);
-  add(c, "--replay", "FILE", view.replay_file, "pulls and pins by step, as the window records them");
+  add(c, "--replay", "FILE", view.replay_file, "replay pulls and pins by step, saved by the window");
   add(c, "--size", "WxH", raw.window_size, "size of the window; default: its last size");
   add(c, "--layout", "NAME", view.layout,
       fmt::format("arrangement of the panels: {}; default: the last one", fmt::join(window_layouts, ", ")));
@@ -156,7 +156,8 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
 }
 
 CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
-  CLI::App* c = add_command(app, "compare", "Run two backends side by side, step by step", compare_examples);
+  CLI::App* c =
+      add_command(app, "compare", "Run two backends side by side and compare every step", compare_examples);
   add(c, "scene", "SCENE", compare.scene, "scene file or built-in name")->required();
   c->add_option("--backends", raw.backends,
                 "the two backends, options after colons: gpu:per-spring,reference:double or cpu:fast,cpu")
@@ -164,11 +165,11 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
       ->expected(1, 100)
       ->type_name("A,B")
       ->default_str("gpu,reference");
-  add(c, "--force-path", "NAME", raw.force_path, "force path of gpu backends without their own");
+  add(c, "--force-path", "NAME", raw.force_path, "force path of gpu backends without one");
   add_arithmetic(c, raw);
   add_length(c, compare.length);
   add_overrides(c, compare.overrides);
-  add(c, "--replay", "FILE", compare.replay_file, "pulls and pins by step, as the window records them");
+  add(c, "--replay", "FILE", compare.replay_file, "replay pulls and pins by step, saved by the window");
   add(c, "--tolerance", "T", compare.tolerance,
       "largest difference allowed, in m and m/s; 0: identical bits");
   add_json(c, compare.json);
@@ -182,21 +183,22 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
   add(c, "--backend", "NAME", raw.bench_backends,
       "auto, gpu, gpu:gather, gpu:fast, cpu, cpu:fast, reference, reference:double")
       ->delimiter(',');
-  add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends without their own")->delimiter(',');
+  add(c, "--force-path", "NAME", raw.bench_force_paths, "force path of gpu backends without one")
+      ->delimiter(',');
   add_arithmetic(c, raw);
   auto* sizes = add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes", edges);
   sizes->delimiter(',');
-  auto* integrators = add(c, "--integrator", "NAME", raw.bench_integrators, "instead of the scene's, or all");
+  auto* integrators =
+      add(c, "--integrator", "NAME", raw.bench_integrators, "integrators instead of the scene's, or all");
   integrators->delimiter(',');
   auto* timestep = add(c, "--timestep", "WORD", raw.bench_timestep,
                        "scene, or largest: 0.99 of the largest stable step, 1/60 s with implicit-euler");
   auto* seconds = add(c, "--seconds", "S", bench.seconds, "time to spend on each case");
-  add(c, "--duration", "S", bench.duration, "simulated seconds of each repeat, however long they take")
-      ->excludes(seconds);
-  add(c, "--repeats", "N", bench.repeats, "runs of each case", repeats);
-  add(c, "--warm-up", "N", bench.warm_up, "runs of each case before them, not counted", {0, repeats.most});
+  add(c, "--duration", "S", bench.duration, "simulated seconds of each repeat")->excludes(seconds);
+  add(c, "--repeats", "N", bench.repeats, "measured runs of each case", repeats);
+  add(c, "--warm-up", "N", bench.warm_up, "runs of each case before those, not counted", {0, repeats.most});
   add(c, "--pictures", "WxH", raw.bench_pictures,
-      "what drawing the scene costs instead, by pass, 60 pictures a simulated second")
+      "measure rendering by pass instead, at 60 frames a simulated second")
       ->excludes(seconds, sizes, integrators, timestep);
   add_overrides(c, bench.overrides);
   add_json(c, bench.json);
@@ -205,51 +207,52 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
 
 CLI::App* add_sweep(CLI::App& app, SweepOptions& sweep, RawOptions& raw) {
   CLI::App* c =
-      add_command(app, "sweep", "Run a scene at every point of a grid, a CSV row each", sweep_examples);
+      add_command(app, "sweep", "Run a scene at every point of a grid, one CSV row each", sweep_examples);
   add(c, "scene", "SCENE", sweep.scene, "scene file or built-in name")->required();
   add(c, "--vary", "KEY=VALUES", sweep.vary,
       "from:to:count[:log] or a,b,c; KEY as for --set, or integrator, h, k, c, n, e, mu, backend")
       ->required();
   add(c, "--out", "FILE", sweep.out, "the CSV file; until it is complete, FILE.partial");
   add(c, "--runs", "DIR", sweep.runs,
-      "a folder that keeps each finished run, also for Python: aspic.sweep()");
+      "keep each finished run in this folder, also for Python: aspic.sweep()");
   add_backend(c, raw);
   add_length(c, sweep.length);
   add_overrides(c, sweep.overrides);
-  add(c, "--jobs", "N", sweep.jobs, "runs at once; default: the processors, or 1 where runs take a GPU", few);
+  add(c, "--jobs", "N", sweep.jobs,
+      "runs at once; default: the number of CPU cores, or 1 where runs need a GPU", few);
   add(c, "--part", "I/N", raw.part, "the I-th of N equal parts of the grid, for job arrays");
   c->add_flag("--force", sweep.force, "overwrite the file and start over");
-  add_json(c, sweep.json, "numbers of rows on stdout as JSON");
+  add_json(c, sweep.json, "print the numbers of rows as JSON");
   return c;
 }
 
 CLI::App* add_report(CLI::App& app, ReportOptions& report) {
   CLI::App* c =
-      add_command(app, "report", "Compare integrators and parameters, as a page with plots", report_examples);
+      add_command(app, "report", "Compare integrators and parameters on a page with plots", report_examples);
   add(c, "scene", "SCENE", report.scene, "scene file or built-in name");
   add(c, "--out", "DIR", report.out, "directory for report.html, report.md, report.pdf, data and figures")
       ->required();
   add(c, "--only", "NAME", report.only,
       "one section: integrators, parameters, stability, contact or backends; repeatable");
   add(c, "--outline", "NAME", report.outline,
-      "order of chapters that a course suggests, with gaps for your own words: course (at most 10 pages)");
+      "order of chapters, with gaps for your own text: course (at most 10 pages)");
   c->add_flag("--thorough", report.thorough, "finer maps, longer runs, larger sizes");
-  add(c, "--jobs", "N", report.jobs, "threads; default: the processors", few);
+  add(c, "--jobs", "N", report.jobs, "threads; default: the number of CPU cores", few);
   add_overrides(c, report.overrides);
   c->add_flag("--force", report.force, "overwrite a report");
-  add_json(c, report.json, "names of the files on stdout as JSON");
+  add_json(c, report.json, "print the names of the files as JSON");
   return c;
 }
 
 CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
   CLI::App* c = add_command(
-      app, "verify", "Check physics and equivalence on this machine, as a table of figures", verify_examples);
-  c->add_flag("--quick", verify.quick, "only checks that take seconds");
-  add(c, "--only", "NAME", verify.only, "one check or group, e.g. order or rest/midpoint; repeatable");
-  c->add_flag("--list", verify.list, "names and claims of the checks; nothing is run");
+      app, "verify", "Check physics and equivalence on this machine, as a table of values", verify_examples);
+  c->add_flag("--quick", verify.quick, "run only checks that take seconds");
+  add(c, "--only", "NAME", verify.only, "run one check or group, e.g. order or rest/midpoint; repeatable");
+  c->add_flag("--list", verify.list, "list names and claims of the checks without a run");
   c->add_flag("--require-gpu", verify.require_gpu,
               "fail if a check finds no GL device, instead of skipping it");
-  add_json(c, verify.json, "the table on stdout as JSON");
+  add_json(c, verify.json, "print the table as JSON");
   return c;
 }
 
@@ -259,7 +262,7 @@ std::array<CLI::App*, 4> add_scene(CLI::App& app, SceneListOptions& list, SceneS
   CLI::App* scene = add_command(app, "scene", "List, show, check and import scenes", scene_examples);
   scene->require_subcommand(1);
   CLI::App* c = add_command(*scene, "list", "The built-in scenes", scene_list_examples);
-  add_json(c, list.json, "as JSON");
+  add_json(c, list.json, "print JSON");
   CLI::App* s =
       add_command(*scene, "show", "Print a scene as complete TOML, with every default", scene_show_examples);
   add(s, "scene", "SCENE", show.scene, "scene file or built-in name")->required();
@@ -267,25 +270,25 @@ std::array<CLI::App*, 4> add_scene(CLI::App& app, SceneListOptions& list, SceneS
   CLI::App* k =
       add_command(*scene, "check", "Counts, memory and stable time steps of a scene", scene_check_examples);
   add(k, "scene", "SCENE", check.scene, "scene file or built-in name")->required();
-  add_json(k, check.json, "as JSON");
+  add_json(k, check.json, "print JSON");
   add_overrides(k, check.overrides);
   CLI::App* i =
       add_command(*scene, "import", "Print a mesh, or Configuration.txt of the 2018 framework, as a scene",
                   scene_import_examples);
-  add(i, "file", "FILE", import.file,
-      "mesh (.obj, .stl, .ply, or rabbit, which is built in), or Configuration.txt")
+  add(i, "file", "FILE", import.file, "mesh (.obj, .stl, .ply, or the built-in rabbit), or Configuration.txt")
       ->required();
   add(i, "--cells", "N", import.cells, "cells along the longest edge of a mesh; default 24", mesh_cells);
-  add(i, "--height", "M", import.height, "metres that a mesh is scaled to; default: its numbers are metres");
+  add(i, "--height", "M", import.height,
+      "height in meters to scale a mesh to; default: its numbers are meters");
   add(i, "--up", "AXIS", import.up, "axis of a mesh that points upwards, y or z; default y");
-  add(i, "--pieces", "WORD", import.pieces,
-      "what becomes of parts that share no face: largest (default), all or refuse");
+  add(i, "--pieces", "WORD", import.pieces, "disconnected parts: largest (default), all or refuse");
   return {c, s, k, i};
 }
 
 CLI::App* add_info(CLI::App& app, InfoOptions& info) {
-  CLI::App* c = add_command(app, "info", "Devices, drivers, GL limits, and what auto picks", info_examples);
-  add_json(c, info.json, "as JSON");
+  CLI::App* c =
+      add_command(app, "info", "List devices, drivers, GL limits, and the choice of auto", info_examples);
+  add_json(c, info.json, "print JSON");
   return c;
 }
 

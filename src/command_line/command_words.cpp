@@ -38,12 +38,13 @@ Error unexpected_word(const CommandWords& command, const std::string& word) {
   const std::string name = shown.substr(0, shown.find('='));
   const std::string key = option && has(command.options, "--set") ? scene_key_like(name) : "";
   if (!key.empty())
-    return usage("{0} has no option {1}; it is a key of the scene: --set {2}=VALUE. See {0} --help.",
+    return usage("{0} has no option {1}, but scenes have this key: --set {2}=VALUE. See {0} --help.",
                  command.name, name, key);
   const std::vector<std::string>& known = option ? command.options : command.commands;
-  std::string message = option          ? fmt::format("{} has no option {}.", command.name, name)
-                        : known.empty() ? fmt::format("{} does not expect \"{}\".", command.name, shown)
-                                        : fmt::format("{} has no command \"{}\".", command.name, shown);
+  std::string message = option ? fmt::format("{} has no option {}.", command.name, name)
+                        : known.empty()
+                            ? fmt::format("unexpected argument for {}: \"{}\".", command.name, shown)
+                            : fmt::format("{} has no command \"{}\".", command.name, shown);
   const std::vector<std::string_view> candidates(known.begin(), known.end());
   const std::string_view near = diagnostics::nearest(name, candidates);
   if (!near.empty()) message += fmt::format(" Did you mean {}?", near);

@@ -45,13 +45,13 @@ Result<PictureSize> parse_size(const std::string& text, std::string_view option 
 Status check_pictures_wanted(const PictureOutput& pictures, const RawOptions& raw) {
   for (const std::string_view option : {"--frames-format", "--size", "--text", "--no-text"})
     if (raw.gave(option) && !pictures.any())
-      return usage("{} is for pictures: add --video FILE or --frames DIR, or leave it out.", option);
+      return usage("{} applies to images: add --video FILE or --frames DIR, or omit it.", option);
   for (const std::string_view option : {"--fps", "--speed", "--view"})
     if (raw.gave(option) && !pictures.any() && !pictures.any_page())
-      return usage("{} is for pictures: add --video FILE, --frames DIR or --html FILE, or leave it out.",
+      return usage("{} applies to images: add --video FILE, --frames DIR or --html FILE, or omit it.",
                    option);
   if (raw.gave("--frames-format") && pictures.frames.empty())
-    return usage("--frames-format is for --frames DIR: add it, or leave --frames-format out.");
+    return usage("--frames-format applies to --frames DIR: add that, or omit --frames-format.");
   return {};
 }
 
@@ -121,7 +121,7 @@ Result<BackendChoice> one_backend(const RawOptions& raw) {
 /// "gpu,cpu,reference" where two were wanted.
 Status check_two(const std::vector<std::string>& backends) {
   if (backends.size() == 2) return {};
-  return usage("--backends names two backends, such as gpu,reference, not {} ({}).", backends.size(),
+  return usage("--backends takes two backends, such as gpu,reference, not {} ({}).", backends.size(),
                printable_line(fmt::format("{}", fmt::join(backends, ","))));
 }
 
@@ -155,7 +155,7 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
   for (const StateOutput& output : run.outputs) {
     if (!output.every || !output.path.empty()) continue;
     const std::string interval = fmt::format("--{}-every", output.option);
-    return usage("{0} is for --{1} FILE: add it, or leave {0} out.",
+    return usage("{0} applies to --{1} FILE: add that, or omit {0}.",
                  raw.gave(interval) ? interval : "--every", output.option);
   }
   for (const StateOutput& output : run.outputs)
@@ -166,8 +166,7 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
   }
   if (run.scene.empty() && !run.overrides.empty()) {
     return usage(
-        "a resumed run continues the scene of its checkpoint, which --set cannot change. Omit --set, "
-        "or run a scene.");
+        "--set cannot change the scene of a checkpoint. Omit --set, or run a scene without --resume.");
   }
   ASPIC_CHECK(finish_pictures(run.pictures, raw));
   return Command(std::move(run));
@@ -204,7 +203,7 @@ Result<Command> finish_sweep(SweepOptions sweep, const RawOptions& raw) {
     return usage("a sweep needs --out FILE.csv for its table, or --runs DIR for its runs, or both.");
   if (const std::string ending = ending_of(sweep.out);
       !ending.empty() && ending != ".csv" && !is_device_or_pipe(sweep.out))
-    return usage("--out writes CSV, so its name {} must end in .csv.", printable_line(sweep.out));
+    return usage("--out writes CSV: end its name {} in .csv.", printable_line(sweep.out));
   const char* const end = raw.part.data() + raw.part.size();
   const auto part = std::from_chars(raw.part.data(), end, sweep.part);
   const bool slash = part.ec == std::errc() && part.ptr != end && *part.ptr == '/';
@@ -228,7 +227,7 @@ Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
     if (known == std::end(all_integrators)) {
       std::vector<std::string_view> names;
       for (const Integrator i : all_integrators) names.push_back(name_of(i));
-      return usage("--integrator does not know \"{}\"; allowed: all, {}.", printable_line(word),
+      return usage("unknown --integrator \"{}\"; allowed: all, {}.", printable_line(word),
                    fmt::join(names, ", "));
     }
     bench.integrators.push_back(*known);

@@ -50,8 +50,7 @@ bool has_software_device() {
 }
 
 Suitability gpu_suitability(const gl::Context* window) {
-  constexpr const char* software =
-      "OpenGL is a software rasteriser here, which is used only where the backend gpu is named";
+  constexpr const char* software = "OpenGL is a software rasterizer here, which only the backend gpu uses";
   Suitability result;
   if (window == nullptr) {
     gl::ContextOptions options;
@@ -128,7 +127,7 @@ constexpr BackendRow table[] = {
        return Suitability{true, "", "", nullptr};
      },
      true, true},
-    {"reference", "reference", "one thread, Eigen, written to be read", both_precisions, nullptr, false,
+    {"reference", "reference", "one thread, Eigen, written for readability", both_precisions, nullptr, false,
      make_reference,
      [](const Model& model, const BackendChoice& choice) -> std::optional<std::uint64_t> {
        return reference_bytes(model, choice.precision);
@@ -350,7 +349,7 @@ Status check_choice(const BackendChoice& choice) {
   if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
   const auto with_path =
       names_where([](const BackendRow& row) { return !row.force_paths().empty(); }).front();
-  return advised(fail(ErrorCode::usage, "a force path belongs to the {} backend.", with_path),
+  return advised(fail(ErrorCode::usage, "a force path applies to the {} backend only.", with_path),
                  {advice("omit it"), use_backend(with_path)});
 }
 

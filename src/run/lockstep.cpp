@@ -18,8 +18,8 @@ bool same_bits(const State& a, const State& b) {
 
 Error one_state(const Solver& first, const Solver& second) {
   return fail(ErrorCode::check_failed,
-              "a step of the one solver ({}) changed the state of the other ({}): both work on one state, so "
-              "nothing was compared. This is a fault of the program or of the driver.",
+              "a step of one solver ({}) changed the state of the other ({}): they share a state, so nothing "
+              "was compared. Report this fault of Aspic or of the driver.",
               first.description(), second.description());
 }
 

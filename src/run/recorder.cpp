@@ -24,7 +24,7 @@ Result<FrameContext> frame_context(const Backend& backend) {
   if (gl::Context* const there = context_of(backend)) return FrameContext{there, nullptr};
   auto context = gl::Context::create_headless();
   if (!context)
-    return fail(context.error(), "images and videos need an OpenGL device; a software one is enough. {}",
+    return fail(context.error(), "images and videos need an OpenGL device, hardware or software. {}",
                 context.error().what);
   gl::Context* const own = context->get();
   return FrameContext{own, std::move(*context)};

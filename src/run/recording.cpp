@@ -150,7 +150,7 @@ bool Recording::carry_out(std::unique_ptr<FrameSink>& sink, const Work& work) {
   try {
     done = work(*sink);
   } catch (const std::bad_alloc&) {
-    done = Error{ErrorCode::io, "The video could not be written: there is not enough memory."};
+    done = Error{ErrorCode::io, "Cannot write the video: not enough memory."};
   }
   if (done) return true;
   sink.reset();

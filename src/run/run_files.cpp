@@ -40,8 +40,8 @@ Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOu
       const auto a = place(files[i].second, failed_a), b = place(files[j].second, failed_b);
       // Devices may take several outputs one after the other.
       if (failed_a || failed_b || a != b || a.native().starts_with("/dev/")) continue;
-      return fail(ErrorCode::usage, "{} and {} are both to be written to {}: give each its own name.",
-                  files[i].first, files[j].first, files[i].second);
+      return fail(ErrorCode::usage, "{} and {} would both write {}: give each its own name.", files[i].first,
+                  files[j].first, files[i].second);
     }
   }
   return {};

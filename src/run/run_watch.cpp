@@ -95,8 +95,8 @@ Diagnostic RunWatch::Parts::overlap() const {
   return {"overlap", names.at(at_start.front().a),
           fmt::format("{} overlap at the start: {}", count, listed(pairs)),
           fmt::format("{}; move them apart in the scene",
-                      locked ? "What is too deep stays so, the rest is eased apart"
-                             : "They are eased apart slowly, without the energy named")};
+                      locked ? "Deep overlaps remain; shallow ones separate slowly"
+                             : "They separate slowly, without the energy given")};
 }
 
 std::vector<Diagnostic> RunWatch::at_start() const {
@@ -121,9 +121,9 @@ void RunWatch::Parts::look_for_deep(const State& state, std::vector<Diagnostic>&
   if (pairs.empty()) return;
   found.push_back(
       {"deep-overlap", where,
-       fmt::format("bodies are so deep within each other {} that contact does not separate them: {}",
-                   when(state), listed(pairs)),
-       "They met too fast, or too soft: see what aspic scene check says of contact"});
+       fmt::format("bodies interpenetrate beyond the contact range {} and will stay stuck: {}", when(state),
+                   listed(pairs)),
+       "Their impact is too fast or their springs too soft: see the contact lines of aspic scene check"});
 }
 
 void RunWatch::Parts::look_for_flat(const State& state, std::vector<Diagnostic>& found) {
@@ -136,8 +136,8 @@ void RunWatch::Parts::look_for_flat(const State& state, std::vector<Diagnostic>&
   }
   if (bodies.empty()) return;
   found.push_back({"flat-cells", where,
-                   fmt::format("cells are flat or inside out {}: {}", when(state), listed(bodies)),
-                   "Springs may hold them so for ever; slower impacts or stiffer springs keep the shape"});
+                   fmt::format("cells are flat or inverted {}: {}", when(state), listed(bodies)),
+                   "Springs may hold them in this state; slower impacts or stiffer springs keep the shape"});
 }
 
 void RunWatch::Parts::look_for_energy(const State& state, const InputLog& inputs,
@@ -147,15 +147,15 @@ void RunWatch::Parts::look_for_energy(const State& state, const InputLog& inputs
   told_energy = true;
   const std::string before =
       rise->driven ? fmt::format(
-                         "above that of step {} plus the most that actuators, pulls and moving terrain "
-                         "can have added since",
+                         "above that of step {} plus an upper bound of the work of actuators, pulls and "
+                         "moving terrain since",
                          rise->since)
-                   : fmt::format("more than at {}, and nothing did that work",
+                   : fmt::format("more than at {}, without any work done",
                                  rise->since > 0 ? fmt::format("step {}", rise->since) : "the start");
   found.push_back({"energy", "",
                    fmt::format("the total energy is {:.3g} J {}, {:.3g} J {}", rise->total, when(state),
                                rise->excess, before),
-                   "Bodies met too fast or the time step is too large: see what aspic scene check says"});
+                   "Impacts are too fast or the time step is too large: see aspic scene check"});
 }
 
 std::vector<Diagnostic> RunWatch::look(const Model& model, const State& state, const InputLog& inputs,

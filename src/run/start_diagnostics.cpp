@@ -102,10 +102,9 @@ class StartCheck {
     if (std::ranges::none_of(deepest, [](double d) { return d > 0.0; })) return;
     const double energy = measure(model_, lifted).elastic - measure(model_, start).elastic;
     name("within-terrain", "within terrain at the start: ",
-         fmt::format(
-             "The first steps put their particles on its surface, which stores {:.3g} J in springs; move "
-             "them out in the scene",
-             std::max(energy, 0.0)),
+         fmt::format("The first steps move their particles to its surface, which stores {:.3g} J in springs; "
+                     "move the bodies out in the scene",
+                     std::max(energy, 0.0)),
          [&](const Extent& extent) -> std::optional<std::string> {
            if (!(deepest[extent.body] > 0.0)) return std::nullopt;
            return fmt::format(" by {:.3g} m", deepest[extent.body]);
@@ -124,10 +123,9 @@ class StartCheck {
           terrain.shape == TerrainShape::sphere ? "sphere's radius" : "ring's tube's radius";
       name("fine-terrain",
            fmt::format("terrain[{}] may pass between particles: the {} is {:.3g} m, ", t, what, radius),
-           fmt::format(
-               "Particles alone meet terrain: it needs 0.7 spacings, and holds up to {:.3g} m/s at this "
-               "time step; take more particles, or a larger radius",
-               2.0 * radius / model_.simulation.timestep),
+           fmt::format("Only particles collide with terrain: the radius must be 0.7 spacings, which holds up "
+                       "to {:.3g} m/s at this time step; use more particles, or a larger radius",
+                       2.0 * radius / model_.simulation.timestep),
            [&](const Extent& extent) -> std::optional<std::string> {
              if (!(radius < 0.7 * extent.spacing)) return std::nullopt;
              return fmt::format(" has a spacing of {:.3g} m", extent.spacing);
@@ -139,22 +137,23 @@ class StartCheck {
   void lost_digits() {
     if (precision_ == Precision::double_) return;
     const double h = model_.simulation.timestep, fall = 0.1 * length(model_.simulation.gravity);
-    name("far-from-origin", "single precision is too coarse where bodies are: ",
-         "Move the scene to the origin, take a larger time step, or use double precision",
-         [&](const Extent& extent) -> std::optional<std::string> {
-           const auto place = static_cast<float>(extent.farthest);
-           const double step = static_cast<double>(std::nextafter(place, 2.0f * place) - place);
-           const double speed = std::max(extent.speed, fall);
-           if (step > 1e-3 * extent.spacing)
-             return fmt::format(
-                 ", {:.3g} m from the origin, moves in steps of {:.2g} m, its spacing is {:.2g} m",
-                 extent.farthest, step, extent.spacing);
-           if (speed > 0.0 && step > 0.1 * h * speed)
-             return fmt::format(
-                 ", {:.3g} m from the origin, moves in steps of {:.2g} m, and goes {:.2g} m in a time step",
-                 extent.farthest, step, h * speed);
-           return std::nullopt;
-         });
+    name(
+        "far-from-origin", "single precision is too coarse for the position of bodies: ",
+        "Move the scene to the origin, use a larger time step, or use double precision",
+        [&](const Extent& extent) -> std::optional<std::string> {
+          const auto place = static_cast<float>(extent.farthest);
+          const double step = static_cast<double>(std::nextafter(place, 2.0f * place) - place);
+          const double speed = std::max(extent.speed, fall);
+          if (step > 1e-3 * extent.spacing)
+            return fmt::format(
+                ", {:.3g} m from the origin, has a resolution of {:.2g} m, and its spacing is {:.2g} m",
+                extent.farthest, step, extent.spacing);
+          if (speed > 0.0 && step > 0.1 * h * speed)
+            return fmt::format(
+                ", {:.3g} m from the origin, has a resolution of {:.2g} m, and moves {:.2g} m in a time step",
+                extent.farthest, step, h * speed);
+          return std::nullopt;
+        });
   }
 
   void resting_distance() {
@@ -164,9 +163,8 @@ class StartCheck {
     name(
         "resting-distance",
         fmt::format("contact.epsilon, {:.3g} m, is more than a tenth of a spacing: ", epsilon),
-        fmt::format(
-            "Bodies come to rest up to so far above terrain; set contact.epsilon to {:.2g}, a fiftieth of it",
-            0.02 * smallest),
+        fmt::format("Bodies may rest this far above terrain; set contact.epsilon to {:.2g}, a fiftieth of it",
+                    0.02 * smallest),
         [&](const Extent& extent) -> std::optional<std::string> {
           if (extent.pinned || !(epsilon > (0.1 + 1e-9) * extent.spacing)) return std::nullopt;
           return fmt::format(" has a spacing of {:.3g} m", extent.spacing);
@@ -178,8 +176,8 @@ class StartCheck {
     if (terrain_.empty()) return;
     const ContactSurfaces surfaces = contact_surfaces(model_);
     const double g = length(model_.simulation.gravity);
-    name("impact-speed", "impacts on terrain may flatten cells for ever: ",
-         "Slower, stiffer or lighter bodies take their shape again",
+    name("impact-speed", "impacts on terrain may flatten cells permanently: ",
+         "Slower, stiffer or lighter bodies recover their shape",
          [&](const Extent& extent) -> std::optional<std::string> {
            const Body& body = model_.bodies[extent.body];
            const auto contact = std::ranges::find(surfaces.bodies, extent.body, &ContactBody::body);
@@ -195,7 +193,8 @@ class StartCheck {
            const double speed = std::sqrt(extent.speed * extent.speed + 2.0 * g * std::max(drop, 0.0));
            const double sound = contact->spacing * std::sqrt(contact->stiffness / contact->mass);
            if (!(speed > 1.1 * sound)) return std::nullopt;
-           return fmt::format(" may come at {:.3g} m/s, its speed of sound is {:.3g} m/s", speed, sound);
+           return fmt::format(" may arrive at {:.3g} m/s, and its speed of sound is {:.3g} m/s", speed,
+                              sound);
          });
   }
 

@@ -34,8 +34,8 @@ TEST(ResultDeathTest, ReadingWhatItDoesNotHoldEndsTheProgramWithASentence) {
   EXPECT_DEATH((void)*none, "no such file");
   EXPECT_DEATH((void)none.value(), "no such file");
   const Result<int> seven = 7;
-  EXPECT_DEATH((void)seven.error(), "holds none");
-  EXPECT_DEATH((void)Status().error(), "holds none");
+  EXPECT_DEATH((void)seven.error(), "holds a value");
+  EXPECT_DEATH((void)Status().error(), "holds a value");
 }
 
 Result<std::unique_ptr<int>> half(int number) {

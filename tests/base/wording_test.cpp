@@ -47,7 +47,7 @@ TEST(Wording, WithoutARemedyItIsWhatHappened) {
   EXPECT_EQ((Error{ErrorCode::io, "no such file"}.message()), "no such file");
   const Error device = {ErrorCode::no_device, "There is none", {{RemedyKind::draw_nothing, {"cpu"}}}};
   EXPECT_EQ(worded(device, FrontEnd::window), "There is none");
-  EXPECT_EQ(worded(device, FrontEnd::command_line), "There is none. Use --backend cpu without pictures.");
+  EXPECT_EQ(worded(device, FrontEnd::command_line), "There is none. Use --backend cpu without images.");
 }
 
 // What an error led to keeps its remedies, after those of its own, each once; below lines of text they begin

@@ -76,7 +76,7 @@ TEST(Files, WorkOfActuatorsIsThatOfTheSeries) {
   EXPECT_THAT(alone.out, testing::Not(HasSubstr("actuator_work")));
   std::erase(with, "--json");
   with.emplace_back("--force");
-  EXPECT_THAT(aspic(with).out, HasSubstr("actuators    did "));
+  EXPECT_THAT(aspic(with).out, HasSubstr("actuators    work "));
 }
 
 TEST(Files, ExistingFilesAreKeptWithoutForce) {
@@ -179,7 +179,7 @@ TEST(Files, ResumeExplainsWhatDoesNotFit) {
   dir.write("cut", bytes.substr(0, bytes.size() - 100));
   const auto cut = aspic({"run", "--resume", dir.file("cut")});
   EXPECT_EQ(cut.exit_code, 6);
-  EXPECT_THAT(cut.err, HasSubstr("damaged or cut short"));
+  EXPECT_THAT(cut.err, HasSubstr("damaged or truncated"));
   dir.write("foreign", "hello");
   EXPECT_EQ(aspic({"run", "--resume", dir.file("foreign")}).exit_code, 6);
   EXPECT_EQ(aspic({"run", "--resume", dir.file("missing")}).exit_code, 6);

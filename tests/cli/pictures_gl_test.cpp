@@ -108,7 +108,7 @@ TEST(Video, HasTheLengthRateAndSizeAskedFor) {
   EXPECT_EQ(json_member(run.out, "count"), "31");
   for (const char* stage : {"simulate", "draw", "read", "encode"})
     EXPECT_GT(std::stod(json_member(run.out, stage)), 0.0);
-  EXPECT_THAT(run.err, HasSubstr("31 pictures on"));
+  EXPECT_THAT(run.err, HasSubstr("31 frames on"));
   // The index stands in front (faststart).
   const std::string file = dir.read("v.mp4");
   EXPECT_LT(file.find("moov"), file.find("mdat"));

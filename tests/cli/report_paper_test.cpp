@@ -165,7 +165,7 @@ TEST_F(Report, TheCoursesOutlineTakesAtMostTenPages) {
   EXPECT_THAT(markdown, HasSubstr("> **Your words.** What did you find"));
   EXPECT_THAT(content(directory->file("o/data/scene.toml")), HasSubstr("author = \"309553010\""));
   // Words in a gap take the place of its question.
-  const std::string gap = "aria-label=\"Your words\"></div>", question = "What is simulated here";
+  const std::string gap = "aria-label=\"Your words\"></div>", question = "Name the subject";
   std::string written = html;
   written.replace(written.find(gap), gap.size(), "aria-label=\"Your words\">A jelly falls.</div>");
   std::ofstream(directory->file("o/written.html")) << written;

@@ -180,10 +180,10 @@ TEST(ReportWithoutADevice, SaysSoAndHasNoPictures) {
                            "author=0356611", "--only", "backends", "--out", dir.file("r"), "--json"},
                           no_device);
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_THAT(made.err, HasSubstr("no pictures"));
+  EXPECT_THAT(made.err, HasSubstr("no images"));
   EXPECT_NE(test::json_member(made.out, "no_pictures"), "null");
   const std::string html = content(dir.file("r/report.html"));
-  EXPECT_THAT(html, HasSubstr("There are no rendered pictures"));
+  EXPECT_THAT(html, HasSubstr("There are no images"));
   EXPECT_THAT(html, HasSubstr("</h1><p class=\"by\">0356611</p>"));
   EXPECT_THAT(html, Not(HasSubstr("<img")));
 }

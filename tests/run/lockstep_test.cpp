@@ -61,7 +61,7 @@ TEST(Lockstep, TwoSolversOfOneStateAreFoundOut) {
     const auto compared = compare_in_lockstep(first, second, 20, always);
     ASSERT_FALSE(compared.ok());
     EXPECT_EQ(compared.error().code, ErrorCode::check_failed);
-    EXPECT_THAT(compared.error().message(), HasSubstr("both work on one state"));
+    EXPECT_THAT(compared.error().message(), HasSubstr("they share a state"));
     EXPECT_FALSE(compare_in_lockstep(first, first, 20, always).ok());
     State other = initial_state(model, Precision::double_);
     Stepper apart(model, other, still);
