@@ -92,22 +92,22 @@ void MeshBuilder::cut_polygons() {
   for (const auto& [first, count] : polygons_)
     if (!cut_polygon(mesh.vertices, std::span(mesh.triangles).subspan(first, count))) ++fans;
   if (fans > 0)
-    add_note(fmt::format(
-        "concave faces of more than {} corners, which are covered by triangles from the first: {}",
-        most_cut_corners, fans));
+    add_note(
+        fmt::format("concave faces of more than {} corners, split into triangles from the first corner: {}",
+                    most_cut_corners, fans));
 }
 
 std::optional<std::string> MeshBuilder::wrong_index() const {
   if (!largest_ || *largest_ < vertex_count()) return std::nullopt;
   return fmt::format(
-      "this face names vertex {}, counted from 0, and the file has {}; it is cut short or damaged: export it "
-      "again",
+      "this face names vertex {}, counted from 0, and the file has {}. The file is truncated or damaged: "
+      "export it again",
       *largest_, vertex_count());
 }
 
 std::string MeshBuilder::no_faces() const {
   if (vertex_count() == 0)
-    return "there is no vertex and no face: it holds no mesh, or one in another format";
+    return "there is no vertex and no face: the file holds no mesh, or has another format";
   return fmt::format(
       "there are {} vertices and no face: points alone have no inside; export the surface as triangles",
       vertex_count());

@@ -67,7 +67,7 @@ Result<std::vector<std::size_t>> keep_pieces(OccupancyGrid& grid, Pieces pieces)
   if (sizes.size() > 1 && pieces == Pieces::refuse) {
     const auto shown = std::span(sorted).first(std::min<std::size_t>(sorted.size(), 5));
     return advised(
-        fail(ErrorCode::scene_rejected, "the cells are {} pieces, which no face connects: of {}{} cells",
+        fail(ErrorCode::scene_rejected, "the cells form {} pieces that share no face: of {}{} cells",
              sizes.size(), fmt::join(shown, ", "), shown.size() < sorted.size() ? ", …" : ""),
         {advice("keep the largest or all of them with the key 'pieces'"), advice("use more cells")});
   }

@@ -41,15 +41,14 @@ Result<MeshFile> parse_mesh(std::string_view bytes, const std::string& file_name
   if (reader == nullptr)
     return fail(
         ErrorCode::scene_rejected,
-        "{}: this is no kind of mesh that is read: those are {}; convert it, for instance with trimesh "
-        "or Blender",
+        "{}: unsupported mesh format (supported: {}). Convert it, for example with trimesh or Blender",
         printable_line(file_name), fmt::join(mesh_endings, ", "));
   // A binary STL may begin with any byte.
   if (is_utf16(bytes) && reader != parse_stl)
     return fail(ErrorCode::scene_rejected, "{}: this is {}", printable_line(file_name), utf16_words);
   return unless_out_of_memory([&] { return reader(bytes, file_name); },
                               [&]() -> Result<MeshFile> {
-                                return fail(ErrorCode::io, "{}: there is not enough memory for this mesh.",
+                                return fail(ErrorCode::io, "{}: not enough memory for this mesh.",
                                             printable_line(file_name));
                               });
 }

@@ -71,10 +71,9 @@ class ObjReader {
     if (key == "f" || key == "fo") return take_face(words);
     if (key.empty() || among(passed_over, key)) return {};
     if (among(free_forms, key))
-      return error(fmt::format("{} describes a free-form surface, which is not read; export triangles",
-                               quoted_word(key)));
-    if (!noted_)
-      mesh_.add_note(fmt::format("line {}: {} is not known and was passed over", line_, quoted_word(key)));
+      return error(fmt::format(
+          "{} describes a free-form surface, which Aspic does not read; export triangles", quoted_word(key)));
+    if (!noted_) mesh_.add_note(fmt::format("line {}: ignored the unknown {}", line_, quoted_word(key)));
     noted_ = true;
     return {};
   }
@@ -86,7 +85,7 @@ class ObjReader {
       const auto number = mesh_number(word);
       if (!number) {
         return error(word.empty() ? "this vertex has less than three numbers; a vertex is v 0.1 0.2 0.3"
-                                  : fmt::format("{} is no number{}", quoted_word(word),
+                                  : fmt::format("{} is not a number{}", quoted_word(word),
                                                 word.find(',') == std::string_view::npos
                                                     ? "; a vertex is v 0.1 0.2 0.3"
                                                     : "; export with decimal points, not commas"));
@@ -134,8 +133,7 @@ class ObjReader {
 Result<MeshFile> parse_obj(std::string_view text, const std::string& file_name) {
   skip_byte_order_mark(text);
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
-    return mesh_error_at_byte(file_name, zero,
-                              "this is a binary file, not text: OBJ is text; export it again");
+    return mesh_error_at_byte(file_name, zero, "this is a binary file, and OBJ is text: export it again");
   return ObjReader(text, file_name).read();
 }
 

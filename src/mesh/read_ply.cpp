@@ -77,14 +77,15 @@ class HeaderReader {
   Result<Header> read() {
     ++header_.lines;
     if (trimmed(next_line()) != "ply")
-      return error("the first line is not 'ply': this is no PLY, or it is damaged");
+      return error("the first line is not 'ply': the file is not a PLY file, or is damaged");
     bool formatted = false;
     while (!rest_.empty()) {
       ++header_.lines;
       MeshWords words(next_line());
       const std::string_view key = words.next();
       if (key == "end_header") {
-        if (!formatted) return error("the header names no format; it has a line such as 'format ascii 1.0'");
+        if (!formatted)
+          return error("the header names no format; it needs a line such as 'format ascii 1.0'");
         header_.body = rest_;
         return std::move(header_);
       }
@@ -97,12 +98,12 @@ class HeaderReader {
         ASPIC_CHECK(take_property(words));
       } else if (!key.empty() && key != "comment" && key != "obj_info") {
         return error(
-            fmt::format("{} is no word of a PLY header, which are format, element, property, comment, "
-                        "end_header; export the file again",
+            fmt::format("{} is not a word of a PLY header (format, element, property, comment, end_header); "
+                        "export the file again",
                         quoted_word(key)));
       }
     }
-    return error("the header has no end, 'end_header': the file is cut short; copy or export it again");
+    return error("the header has no end, 'end_header'. The file is truncated: copy or export it again");
   }
 
  private:
@@ -122,7 +123,7 @@ class HeaderReader {
     else if (word == "binary_big_endian")
       header_.encoding = Encoding::big_endian;
     else
-      return error(fmt::format("{} is no format of PLY: ascii, binary_little_endian, binary_big_endian",
+      return error(fmt::format("{} is not a format of PLY: ascii, binary_little_endian, binary_big_endian",
                                quoted_word(word)));
     return {};
   }
@@ -134,7 +135,7 @@ class HeaderReader {
     const auto number = mesh_integer(count);
     if (!number || *number < 0)
       return error(
-          fmt::format("{} is no number of elements; a line is 'element vertex 8'", quoted_word(count)));
+          fmt::format("{} is not a number of elements; a line is 'element vertex 8'", quoted_word(count)));
     if (header_.elements.size() == most_elements)
       return error(fmt::format("there are more than {} elements; a mesh has vertex and face", most_elements));
     element.count = static_cast<std::uint64_t>(*number);
@@ -150,15 +151,15 @@ class HeaderReader {
       const std::string_view count = words.next();
       property.count = scalar_of(count);
       if (!property.count || !is_whole(*property.count))
-        return error(fmt::format("{} is no type of a list's length; it is a whole number such as uchar",
+        return error(fmt::format("{} is not a type of a list's length; use an integer type such as uchar",
                                  quoted_word(count)));
       type = words.next();
     }
     const auto scalar = scalar_of(type);
     if (!scalar)
-      return error(
-          fmt::format("{} is no type of PLY; those are char, uchar, short, ushort, int, uint, float, double",
-                      quoted_word(type)));
+      return error(fmt::format(
+          "{} is not a type of PLY; those are char, uchar, short, ushort, int, uint, float, double",
+          quoted_word(type)));
     property.type = *scalar;
     property.name = words.next();
     if (property.name.empty()) return error("this property has no name");
@@ -187,11 +188,11 @@ class AsciiValues {
   Result<double> next(Scalar type) {
     const std::string_view word = words_.next();
     if (word.empty())
-      return error(place(), "the file ends before its last element: it is cut short; export it again");
+      return error(place(), "the file ends before its last element. It is truncated: export it again");
     const auto number = mesh_number(word);
-    if (!number) return error(place(), fmt::format("{} is no number", quoted_word(word)));
+    if (!number) return error(place(), fmt::format("{} is not a number", quoted_word(word)));
     if (is_whole(type) && *number != std::floor(*number))
-      return error(place(), fmt::format("{} is no whole number", quoted_word(word)));
+      return error(place(), fmt::format("{} is not an integer", quoted_word(word)));
     return *number;
   }
   /// Whether so many values may be left: what a file promises is not believed.
@@ -218,7 +219,7 @@ class BinaryValues {
 
   Result<double> next(Scalar type) {
     if (!has(1, type))
-      return error(at_, "the file ends before its last element: it is cut short; export it again");
+      return error(at_, "the file ends before its last element. It is truncated: export it again");
     switch (type) {
       case Scalar::int8:
         return take<std::int8_t>();
@@ -274,7 +275,7 @@ class BodyReader {
       if (element.properties.empty()) continue;  // it has no bytes, whatever its number
       const bool vertices = element.name == "vertex", faces = element.name == "face";
       if (element.name == "tristrips")
-        return error("the triangles are strips, which are not read; export faces");
+        return error("the triangles are strips, which Aspic does not read; export faces");
       if (vertices && !is_vertex(element))
         return error("a vertex has the properties x, y and z, each one number; export the file again");
       for (std::uint64_t i = 0; i < element.count; ++i) {

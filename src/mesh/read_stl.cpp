@@ -41,22 +41,22 @@ Result<MeshFile> parse_binary(std::string_view bytes, const std::string& file_na
     return mesh_error_at_byte(file_name, byte, what);
   };
   if (bytes.size() < header_bytes)
-    return error(bytes.size(), "the file ends in its header of 84 bytes: it is cut short, or no STL");
+    return error(bytes.size(),
+                 "the file ends in its header of 84 bytes: it is truncated, or not an STL file");
   std::uint64_t count = number_at<std::uint32_t>(bytes, count_at);
   MeshBuilder mesh;
   // Programs that write as they go leave it at 0.
   if (const std::uint64_t rest = bytes.size() - header_bytes; count == 0 && rest % triangle_bytes == 0) {
     count = rest / triangle_bytes;
     if (count > 0)
-      mesh.add_note(fmt::format("byte {}: 0 triangles are named, and the file has {}", count_at, count));
+      mesh.add_note(
+          fmt::format("byte {}: the header declares 0 triangles, and the file has {}", count_at, count));
   }
   const std::uint64_t needed = header_bytes + count * triangle_bytes;
   if (needed > bytes.size())
-    return error(
-        count_at,
-        fmt::format("{} triangles are promised, which takes {} bytes, and the file has {}: it is cut "
-                    "short; copy or export it again",
-                    count, needed, bytes.size()));
+    return error(count_at, fmt::format("the header declares {} triangles ({} bytes), and the file has {} "
+                                       "bytes. The file is truncated: copy or export it again",
+                                       count, needed, bytes.size()));
   if (count > most_mesh_triangles) return error(count_at, too_many_triangles());
   for (std::size_t at = header_bytes; at < needed; at += triangle_bytes) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -67,8 +67,8 @@ Result<MeshFile> parse_binary(std::string_view bytes, const std::string& file_na
     if (!add_triangle(mesh, at)) return error(at, too_many_triangles());
   }
   if (needed < bytes.size())
-    mesh.add_note(fmt::format("byte {}: {} bytes after the last triangle were passed over", needed,
-                              bytes.size() - needed));
+    mesh.add_note(
+        fmt::format("byte {}: ignored {} bytes after the last triangle", needed, bytes.size() - needed));
   return std::move(mesh).finish(count_at, error);
 }
 
@@ -91,12 +91,11 @@ class AsciiReader {
         if (!add_triangle(mesh_, words_.line())) return error(too_many_triangles());
       } else if (!is_word(word, "endfacet")) {
         return error(fmt::format(
-            "{} is no word of STL, which are facet, outer loop, vertex, endloop, endfacet; export the "
-            "file again",
+            "{} is not a word of STL (facet, outer loop, vertex, endloop, endfacet); export the file again",
             quoted_word(word)));
       }
     }
-    if (corners_ != 0) return error("the file ends inside a facet: it is cut short; copy or export it again");
+    if (corners_ != 0) return error("the file ends inside a facet. It is truncated: copy or export it again");
     return std::move(mesh_).finish(words_.line(), [&](std::size_t line, const std::string& what) {
       return mesh_error_in_line(file_name_, line, what);
     });
@@ -109,9 +108,9 @@ class AsciiReader {
       const std::string_view word = words_.next();
       const auto number = mesh_number(word);
       if (!number)
-        return error(word.empty()
-                         ? "the file ends inside a vertex: it is cut short; copy or export it again"
-                         : fmt::format("{} is no number; a corner is vertex 0.1 0.2 0.3", quoted_word(word)));
+        return error(word.empty() ? "the file ends inside a vertex. It is truncated: copy or export it again"
+                                  : fmt::format("{} is not a number; a corner is vertex 0.1 0.2 0.3",
+                                                quoted_word(word)));
       position[axis] = *number;
     }
     mesh_.add_vertex(position);

@@ -128,9 +128,9 @@ std::vector<std::string> sentences_of(const MeshRepairs& r) {
   const auto say = [&](std::size_t count, fmt::format_string<std::size_t&> sentence) {
     if (count > 0) said.push_back(fmt::format(sentence, count));
   };
-  say(r.not_finite, "left out {} faces with a corner that is no finite number");
+  say(r.not_finite, "left out {} faces with a corner that is not finite");
   say(r.zero_area, "left out {} faces without area");
-  say(r.doubled, "left out {} doubled faces");
+  say(r.doubled, "left out {} duplicate faces");
   if (r.turned > 0)
     said.push_back(r.turned == r.faces
                        ? "turned all faces: the mesh was inside out"

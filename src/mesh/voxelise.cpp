@@ -91,8 +91,8 @@ Result<VoxelisedMesh> voxelise(const TriangleMesh& mesh, const VoxelisationSetti
   const Vec3 extent = made.report.extent = bounds_of(made.skin).extent();
   if (made.skin.triangles.empty())
     return fail(ErrorCode::scene_rejected,
-                "{}: no face has an area: of {} faces {} have a corner that is no finite number and {} "
-                "have no area; export the surface again",
+                "{}: no face has an area: of {} faces, {} have a corner that is not finite and {} have no "
+                "area; export the surface again",
                 who, mesh.triangles.size(), made.report.repairs.not_finite, made.report.repairs.zero_area);
   made.grid = grid_around(extent, settings.cells);
   made.report.mesh_volume = enclosed_volume(made.skin);
@@ -106,9 +106,8 @@ Result<VoxelisedMesh> voxelise(const TriangleMesh& mesh, const VoxelisationSetti
   if (made.report.ambiguous > most_ambiguous)
     return advised(
         fail(ErrorCode::scene_rejected,
-             "{}: what is inside cannot be told: {} of {} cells ({:.0f} %, at most {:.0f} %) have a winding "
-             "number between "
-             "0.3 and 0.7; {} edges of {} faces are rims of holes",
+             "{}: inside and outside are ambiguous: {} of {} cells ({:.0f} %, at most {:.0f} %) have a "
+             "winding number between 0.3 and 0.7; {} edges of {} faces are rims of holes",
              who, ambiguous, made.grid.full.size(), 100.0 * made.report.ambiguous, 100.0 * most_ambiguous,
              r.open_edges, r.faces),
         {advice("close the mesh's holes, for instance with Blender's Fill or trimesh.repair.fill_holes")});
@@ -120,7 +119,7 @@ Result<VoxelisedMesh> voxelise(const TriangleMesh& mesh, const VoxelisationSetti
              "encloses nothing ({} of its edges are rims of holes)",
              who, made.grid.cells[0], made.grid.cells[1], made.grid.cells[2], made.grid.size, r.open_edges),
         {advice("use more cells"), advice("close the mesh's holes"),
-         advice("make a sheet of it, [[cloth]], if it is one")});
+         advice("use a [[cloth]] if the mesh is a sheet")});
   auto pieces = keep_pieces(made.grid, settings.pieces);
   if (!pieces) return fail(pieces.error(), "{}: {}", who, pieces.error().what);
   made.report.pieces = std::move(*pieces);
@@ -139,12 +138,12 @@ std::vector<std::string> sentences_of(const VoxelisedMesh& made) {
                   made.grid.full_count(), n, m, l, made.grid.size, size_of(r.extent)));
   if (r.odd_size)
     said.emplace_back(
-        "its numbers are taken as metres, which is an unlikely size; give a height in metres to scale it");
+        "its numbers are read as meters, which is an unlikely size; give a height in meters to scale it");
   if (r.ambiguous > 0.01)
-    said.push_back(fmt::format("{:.0f} % of the cells are near holes, where inside and outside are a guess",
+    said.push_back(fmt::format("{:.0f} % of the cells are near holes, where inside and outside are estimates",
                                100.0 * r.ambiguous));
   if (r.pieces.size() > 1 && r.kept_all)
-    said.push_back(fmt::format("{} pieces, which no face connects, move separately", r.pieces.size()));
+    said.push_back(fmt::format("{} pieces, which share no face, move separately", r.pieces.size()));
   if (r.pieces.size() > 1 && !r.kept_all) {
     std::size_t lost = 0;
     for (std::size_t i = 1; i < r.pieces.size(); ++i) lost += r.pieces[i];
@@ -152,10 +151,10 @@ std::vector<std::string> sentences_of(const VoxelisedMesh& made) {
                                r.pieces.size(), lost));
   }
   if (r.thin > told_thin)
-    said.push_back(fmt::format(
-        "{:.0f} % of the surface bounds walls thinner than a cell, which vanish or become a cell thick; "
-        "more cells hold them",
-        100.0 * r.thin));
+    said.push_back(
+        fmt::format("{:.0f} % of the surface bounds walls thinner than a cell, which disappear or become a "
+                    "cell thick; use more cells to keep them",
+                    100.0 * r.thin));
   if (r.hinges > 0)
     said.push_back(
         fmt::format("hinges, edges or points at which cells meet without a common face: {}", r.hinges));

@@ -15,7 +15,7 @@ Status take_phases(const std::string& path, ActuatorSettings& into) {
   for (std::size_t i = 0; i < array.size(); ++i) {
     cells.numbers.push_back(array.number(i));
     if (!std::isfinite(cells.numbers.back()))
-      return fail(ErrorCode::scene_rejected, "number {} of it is {}; phases are finite, in cycles", i,
+      return fail(ErrorCode::scene_rejected, "number {} of it is {}; phases must be finite, in cycles", i,
                   cells.numbers.back());
   }
   into.phase.cells = to_cell_text(cells);
@@ -25,7 +25,7 @@ Status take_phases(const std::string& path, ActuatorSettings& into) {
 Status take_mask(const std::string& path, ActuatorSettings& into) {
   ASPIC_TRY(const NpyArray array, read_cell_array(path));
   if (!array.whole_numbers())
-    return fail(ErrorCode::scene_rejected, "it must be an array of truth values or whole numbers");
+    return fail(ErrorCode::scene_rejected, "it must be an array of truth values or integers");
   const std::size_t nx = array.shape()[0], ny = array.shape()[1], nz = array.shape()[2];
   into.select.voxels.assign(ny, std::vector<std::string>(nz, std::string(nx, '.')));
   for (std::size_t i = 0; i < array.size(); ++i)

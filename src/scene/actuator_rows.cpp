@@ -44,17 +44,14 @@ Parameter file_row(std::string_view path, std::string_view meaning) {
 }
 
 Rows select_rows() {
-  Parameter springs =
-      unless_empty("springs of every type", "actuator[].select.springs",
-                   FIELD(model.actuators[i].select.springs), "Types of the springs that it acts on.");
+  Parameter springs = unless_empty("springs of every type", "actuator[].select.springs",
+                                   FIELD(model.actuators[i].select.springs), "Types of springs to act on.");
   springs.type = ParameterType::words;
   springs.words = {"structural", "shear", "bending"};
 #define SELECT_BOX(field) FIELD_IN(model.actuators[i].select.box, field)
   Rows box = {
-      fixed(
-          row("actuator[].select.box.min", "m", within(far), SELECT_BOX(min),
-              "Lower corner of a box that has the middles of its cells, from the body's centre and before it "
-              "is turned.")),
+      fixed(row("actuator[].select.box.min", "m", within(far), SELECT_BOX(min),
+                "Lower corner of a box around the centers of the cells, in the body's unrotated frame.")),
       fixed(
           row("actuator[].select.box.max", "m", within(far), SELECT_BOX(max), "Upper corner of that box."))};
   box[0].read = [](const Parameter&, const Scene& scene, std::size_t i) -> std::optional<Value> {
@@ -76,14 +73,14 @@ Rows select_rows() {
     if (!chosen) chosen = BoxSettings{{-far, -far, -far}, {}};
     chosen->max = std::get<Vec3>(value);
   };
-  for (Parameter& p : box) p.when_absent = "wherever they are";
+  for (Parameter& p : box) p.when_absent = "without a box";
   return joined(
       {{unless_empty("cells of any", "actuator[].select.material", FIELD(model.actuators[i].select.materials),
-                     "Names of the [[material]]s of its cells: one, or an array.")},
+                     "Names of the [[material]]s of the cells: one, or an array.")},
        box,
        {unless_empty("all cells", "actuator[].select.voxels", FIELD(model.actuators[i].select.voxels),
-                     "Its cells as a mask, written like `layers` of [[voxels]] or the name of a .npy file of "
-                     "such an array: those that are not empty."),
+                     "Mask of cells, written like `layers` of [[voxels]] or the name of a .npy file of such "
+                     "an array: selects non-empty cells."),
         file_row("actuator[].select.file", "The mask as a .npy file; short: `voxels = \"mask.npy\"`."),
         springs}});
 }
@@ -92,17 +89,16 @@ Rows phase_rows() {
   return {
       row("actuator[].phase.offset", "cycles", within(1e6), FIELD(model.actuators[i].phase.offset),
           "Phase φ of the signal; short: `phase = 0.25`."),
-      axis_word<phase_axes>(
-          "actuator[].phase.along", FIELD(model.actuators[i].phase.along),
-          "Axis along which the phase changes as a wave's: by −x/wavelength, x from the body's centre "
-          "and before it is turned."),
+      axis_word<phase_axes>("actuator[].phase.along", FIELD(model.actuators[i].phase.along),
+                            "Axis of a phase wave: the phase changes by −x/wavelength, x from the body's "
+                            "center in its unrotated frame."),
       belonging(Belonging::wave, row("actuator[].phase.wavelength", "m", within(far),
                                      FIELD(model.actuators[i].phase.wavelength),
-                                     "Length of that wave; a negative one runs the other way.")),
+                                     "Wavelength; a negative one reverses the wave.")),
       unless_empty("the same in all cells", "actuator[].phase.cells", FIELD(model.actuators[i].phase.cells),
-                   "A phase in cycles for each cell, in addition: \"nx ny nz: …\", ordered by x, y and z."),
+                   "Phase in cycles to add in each cell: \"nx ny nz: …\", ordered by x, y and z."),
       file_row("actuator[].phase.file",
-               "These as a .npy file, a number for each cell; short: `phase = \"phase.npy\"`."),
+               "These phases as a .npy file, one number per cell; short: `phase = \"phase.npy\"`."),
   };
 }
 
@@ -115,38 +111,35 @@ Rows amplitude_rows() {
     from_value(p, scene.model.actuators[i].amplitude, value);
     scene.model.actuators[i].volume_change.reset();
   };
-  return {amplitude, absent("amplitude is given", row("actuator[].volume-change", "", {-0.9, 6.8},
-                                                      FIELD(model.actuators[i].volume_change),
-                                                      "Instead of the amplitude the change of volume v at w "
-                                                      "= 1: a = (1 + v)^(1/3) − 1, along one axis "
-                                                      "a = v."))};
+  return {amplitude,
+          absent("amplitude is given",
+                 row("actuator[].volume-change", "", {-0.9, 6.8}, FIELD(model.actuators[i].volume_change),
+                     "Change of volume v at w = 1, instead of the amplitude: a = (1 + v)^(1/3) − 1, along "
+                     "one axis a = v."))};
 }
 
 Parameter table_row() {
-  return belonging(
-      Belonging::signal_table,
-      row("actuator[].table", "", within(far), FIELD(model.actuators[i].table),
-          "Points [t, w] of the signal `table`, t in periods from 0 on; w is linear between them, and begins "
-          "again after the last."));
+  return belonging(Belonging::signal_table,
+                   row("actuator[].table", "", within(far), FIELD(model.actuators[i].table),
+                       "Points [t, w] of the signal `table`, t in periods from 0 on; w is linear between "
+                       "points and repeats after the last."));
 }
 
 }  // namespace
 
 std::vector<Parameter> actuator_parameters() {
   return joined(
-      {{unless_empty("it has none", "actuator[].name", FIELD(model.actuators[i].name),
-                     "Name of the actuator, which no other has."),
+      {{unless_empty("none", "actuator[].name", FIELD(model.actuators[i].name),
+                     "Unique name of the actuator."),
         unless_empty("every body of particles", "actuator[].body", FIELD(model.actuators[i].bodies),
-                     "Bodies that it acts on: names, or \"cube[0]\"; one, or an array.")},
+                     "Bodies to act on: names, or \"cube[0]\"; one, or an array.")},
        select_rows(),
-       {axis_word<actuator_axes>(
-           "actuator[].axis", FIELD(model.actuators[i].axis),
-           "Which way cells stretch: every way, or along an axis of the body before it is "
-           "turned.")},
+       {axis_word<actuator_axes>("actuator[].axis", FIELD(model.actuators[i].axis),
+                                 "Direction in which cells stretch: all, or an axis of the unrotated body.")},
        amplitude_rows(),
        {word<actuator_signals>(
             "actuator[].signal", FIELD(model.actuators[i].signal),
-            "Course of w in time: between −1 and 1, or as a table or a channel of the inputs has it."),
+            "Signal w over time: a function between −1 and 1, a table, or a channel of the inputs."),
         row("actuator[].frequency", "Hz", {0.0, 1e4}, FIELD(model.actuators[i].frequency),
             "Frequency f of the signal."),
         table_row()},
@@ -154,7 +147,7 @@ std::vector<Parameter> actuator_parameters() {
        {row("actuator[].start", "s", {0.0, longest}, FIELD(model.actuators[i].start),
             "Time at which the signal begins; before, w is 0."),
         row("actuator[].ramp", "s", {0.0, longest}, FIELD(model.actuators[i].ramp),
-            "Time in which w then grows to its full size, smoothly.")}});
+            "Time in which w grows smoothly to its full amplitude.")}});
 }
 
 }  // namespace aspic

@@ -36,7 +36,7 @@ Parameter pins(std::string_view body, Parameter p) {
 #define BODY_FRICTION(list, body)                                          \
   absent("contact.body-friction",                                          \
          row(list "[].friction", "", friction, FIELD(model.body.friction), \
-             "Friction coefficient against other bodies, of which the smaller of the two counts."))
+             "Friction coefficient between bodies; the smaller of the two applies."))
 
 /// Particles along the edges of a cube: one number, or three, of which the one that is set last counts.
 Rows particle_rows() {
@@ -49,29 +49,28 @@ Rows particle_rows() {
   };
   Parameter box =
       fixed(absent("a cube", row("cube[].particles", "", {2, 4096}, FIELD(model.cubes[i].particles),
-                                 "Particles along the edges of a box, at most 512³ in all; neighbours "
-                                 "are equally far apart in all directions.")));
+                                 "Particles along the edges of a box, at most 512³ in all; the spacing is "
+                                 "the same in all directions.")));
   edges.belonging = Belonging::equal_edges;
   box.belonging = Belonging::box;
   return {edges, box};
 }
 
 /// Keys of the material that a body is made of, whose numbers decide masses and springs.
-#define MATERIAL_ROWS(list, access, density_meaning, modulus_meaning)                                   \
-  Rows {                                                                                                \
-    of_name(row(list "[].material.name", access(name),                                                  \
-                "Name of the [[material]] that it is made of, in place of the numbers.")),              \
-        of_numbers(                                                                                     \
-            row(list "[].material.density", "kg/m³", positive_mass, access(density), density_meaning)), \
-        of_numbers(row(list "[].material.youngs-modulus", "Pa", {0.0, stiffest, true},                  \
-                       access(youngs_modulus), modulus_meaning)),                                       \
-        of_numbers(row(list "[].material.damping-ratio", "", {0.0, 1e6}, access(damping_ratio),         \
-                       "Damping ratio ζ, from which c = 2ζ√(k·m/2)."))                                  \
+#define MATERIAL_ROWS(list, access, density_meaning, modulus_meaning)                                        \
+  Rows {                                                                                                     \
+    of_name(row(list "[].material.name", access(name), "Name of its [[material]], instead of the values.")), \
+        of_numbers(                                                                                          \
+            row(list "[].material.density", "kg/m³", positive_mass, access(density), density_meaning)),      \
+        of_numbers(row(list "[].material.youngs-modulus", "Pa", {0.0, stiffest, true},                       \
+                       access(youngs_modulus), modulus_meaning)),                                            \
+        of_numbers(row(list "[].material.damping-ratio", "", {0.0, 1e6}, access(damping_ratio),              \
+                       "Damping ratio ζ, from which c = 2ζ√(k·m/2)."))                                       \
   }
 
 Parameter of_name(Parameter p) {
   p.belonging = Belonging::material_name;
-  p.when_absent = "none: the numbers are here";
+  p.when_absent = "none: the values are here";
   return p;
 }
 Parameter of_numbers(Parameter p) {
@@ -84,9 +83,9 @@ Rows cube_rows() {
   return joined(
       {particle_rows(),
        {fixed(row("cube[].edge-length", "m", positive_length, FIELD(model.cubes[i].edge_length),
-                  "Edge of the undeformed cube; of a box its longest edge.")),
-        START("cube", cubes[i], "Centre of the cube at the start.",
-              "Rotation axis through the centre; its length does not matter.")},
+                  "Longest edge of the undeformed cube or box.")),
+        START("cube", cubes[i], "Center of the cube at the start.",
+              "Rotation axis through the center, of any length.")},
        of(Belonging::explicit_springs,
           {row("cube[].particle-mass", "kg", positive_mass, FIELD(model.cubes[i].particle_mass),
                "Mass m of each particle."),
@@ -110,14 +109,14 @@ Rows net_rows() {
         fixed(row("goal-net[].size", "m", positive_length, FIELD(model.goal_nets[i].size),
                   "Width, height and length; the front, towards +x, and the bottom are open.")),
         fixed(row("goal-net[].position", "m", within(far), FIELD(model.goal_nets[i].position),
-                  "Centre of the box."))},
+                  "Center of the box."))},
        of(Belonging::explicit_springs,
           {row("goal-net[].particle-mass", "kg", positive_mass, FIELD(model.goal_nets[i].particle_mass),
                "Mass m of each particle."),
            SPRINGS("goal-net", "structural", goal_nets[i].structural, "between axis neighbours"),
-           fixed(
-               row("goal-net[].shear.stiffness", "N/m", stiffness, FIELD(model.goal_nets[i].shear.stiffness),
-                   "Stiffness k of the springs along the diagonals of the faces' cells; 0: there are none.")),
+           fixed(row(
+               "goal-net[].shear.stiffness", "N/m", stiffness, FIELD(model.goal_nets[i].shear.stiffness),
+               "Stiffness k of the springs along the diagonals of the faces' cells; 0: no such springs.")),
            row("goal-net[].shear.damping", "N·s/m", damping, FIELD(model.goal_nets[i].shear.damping),
                "Damping c of the springs along face diagonals."),
            fixed(row("goal-net[].bending.stiffness", "N/m", stiffness,
@@ -132,7 +131,7 @@ Rows net_rows() {
        of(Belonging::material, {row("goal-net[].cord-diameter", "m", positive_length,
                                     FIELD(model.goal_nets[i].cord_diameter), "Diameter d of the cords.")}),
        {row("goal-net[].cord", FIELD(model.goal_nets[i].cord),
-            "Whether its springs resist stretch only, like a cord.")}});
+            "Makes the springs resist stretch only, as cords do.")}});
 }
 
 Rows cloth_rows() {
@@ -142,9 +141,8 @@ Rows cloth_rows() {
                   "Particles w, h along width (x) and height (y), w·h in all.")),
         fixed(row("cloth[].size", "m", positive_length, FIELD(model.cloths[i].size),
                   "Width and height of the undeformed cloth.")),
-        START("cloth", cloths[i], "Centre of the cloth at the start.",
-              "Axis through the centre about which the cloth is turned out of the x–y plane; its length does "
-              "not matter.")},
+        START("cloth", cloths[i], "Center of the cloth at the start.",
+              "Axis through the center, of any length, that turns the cloth out of the x–y plane.")},
        of(Belonging::explicit_springs,
           {row("cloth[].particle-mass", "kg", positive_mass, FIELD(model.cloths[i].particle_mass),
                "Mass m of each particle."),
@@ -171,9 +169,8 @@ Parameter cell_file() {
   p.live = false;
   p.when_absent = "none: the cells are here";
   p.meaning =
-      "Cells from a .npy file, relative to the scene's: an array of whole numbers by x, y and z, 0 for "
-      "empty, "
-      "which `palette` names, { 1 = \"muscle\" }. Instead of `layers`.";
+      "Cells from a .npy file, relative to the scene's: integers by x, y and z, 0 for empty, with names in "
+      "`palette`, { 1 = \"muscle\" }. Instead of `layers`.";
   p.read = [](const Parameter&, const Scene&, std::size_t) { return std::optional<Value>(); };
   p.write = [](const Parameter&, Scene&, std::size_t, const Value&) {};
   return p;
@@ -198,22 +195,21 @@ Rows mesh_rows() {
   up.words = {"y", "z"};
   return {
       mesh_key("voxels[].mesh", ParameterType::text, "", {}, "none: the cells are here",
-               "A mesh, .obj, .stl or .ply, relative to the scene's file, or one that is built in, rabbit: "
-               "the cells inside, and the "
-               "mesh drawn as their skin. Instead of `layers` and `size`."),
+               "A mesh, .obj, .stl or .ply, relative to the scene's file, or the built-in rabbit: it is "
+               "filled with cells and rendered as their skin. Instead of `layers` and `size`."),
       mesh_key("voxels[].cells", ParameterType::integer, "", {1, most_mesh_cells}, "24",
                "Cells along the longest edge of the mesh's box."),
-      mesh_key("voxels[].height", ParameterType::number, "m", positive_length, "that of the file, in metres",
-               "Height of the mesh's box, to which the mesh is scaled."),
+      mesh_key("voxels[].height", ParameterType::number, "m", positive_length, "that of the file, in meters",
+               "Height to which the mesh is scaled."),
       up,
   };
 }
 
 /// The skin, without what breaks a long text into lines.
 Parameter skin_row() {
-  Parameter p = fixed(unless_empty(
-      "the faces of the cells are drawn", "voxels[].skin", FIELD(model.voxels[i].skin),
-      "A mesh that is drawn in place of the cells' faces and moves with them, as made from `mesh`."));
+  Parameter p = fixed(
+      unless_empty("the faces of the cells", "voxels[].skin", FIELD(model.voxels[i].skin),
+                   "A mesh to render instead of the cells' faces; it moves with them. Made from `mesh`."));
   p.write = [](const Parameter&, Scene& scene, std::size_t i, const Value& value) {
     std::string text = std::get<std::string>(value);
     std::erase_if(text, [](char c) { return c == '\n' || c == '\r' || c == ' '; });
@@ -225,25 +221,23 @@ Parameter skin_row() {
 Rows voxel_rows() {
 #define VOXEL_MATERIAL(field) FIELD(model.voxels[i].material.field)
   return joined(
-      {{unless_empty("it has none", "voxels[].name", FIELD(model.voxels[i].name),
-                     "Name of the body, which no other of its kind has."),
+      {{unless_empty("none", "voxels[].name", FIELD(model.voxels[i].name),
+                     "Name of the body, unique among its kind."),
         fixed(row("voxels[].size", "m", positive_length, FIELD(model.voxels[i].size), "Edge of a cell.")),
-        START("voxels", voxels[i], "Centre of the layers at the start, empty cells among them.",
-              "Rotation axis through the centre; its length does not matter."),
+        START("voxels", voxels[i], "Center of the layers at the start, including empty cells.",
+              "Rotation axis through the center, of any length."),
         unless_empty("all cells are of `material`", "voxels[].palette", FIELD(model.voxels[i].palette),
-                     "Which [[material]] cells of a character are of.")},
+                     "Maps each cell character to a [[material]].")},
        MATERIAL_ROWS("voxels", VOXEL_MATERIAL, "Density ρ of all cells.",
                      "Young's modulus E of all cells along an axis, from which k = E·s/7.3125."),
-       {fixed(row(
-            "voxels[].layers", FIELD(model.voxels[i].layers),
-            "Cells, a character each: layers upwards (y), rows from back to front (z), from left to right "
-            "(x); '.', '0' and ' ' are empty.")),
+       {fixed(row("voxels[].layers", FIELD(model.voxels[i].layers),
+                  "Cells, a character each: layers upwards (y), rows from back to front (z), left to right "
+                  "(x); '.', '0' and ' ' are empty.")),
         cell_file()},
        mesh_rows(),
-       {fixed(
-            word<piece_choices>("voxels[].pieces", FIELD(model.voxels[i].pieces),
-                                "Cells that share no face with the others: refuse rejects the scene, largest "
-                                "keeps the largest piece, all keeps every piece.")),
+       {fixed(word<piece_choices>("voxels[].pieces", FIELD(model.voxels[i].pieces),
+                                  "Cells that share no face with the others: refuse rejects the scene, "
+                                  "largest keeps the largest piece, all keeps every piece.")),
         BODY_FRICTION("voxels", voxels[i]),
         fixed(pins("voxels", row("voxels[].pinned", FIELD(model.voxels[i].pinned),
                                  "Particles that never move: faces, corners such as left-top-front, or local "
@@ -255,8 +249,8 @@ Rows ball_rows() {
   return {
       row("ball[].radius", "m", positive_length, FIELD(model.balls[i].radius), "Radius R."),
       row("ball[].mass", "kg", positive_mass, FIELD(model.balls[i].mass),
-          "Mass m; its moment of inertia is 2/5·m·R², a solid sphere's."),
-      fixed(row("ball[].position", "m", within(far), FIELD(model.balls[i].position), "Centre at the start.")),
+          "Mass m; the moment of inertia is 2/5·m·R² (a solid sphere)."),
+      fixed(row("ball[].position", "m", within(far), FIELD(model.balls[i].position), "Center at the start.")),
       fixed(row("ball[].velocity", "m/s", within(divergence_speed), FIELD(model.balls[i].velocity),
                 "Velocity at the start.")),
       fixed(row("ball[].angular-velocity", "rad/s", within(1e6), FIELD(model.balls[i].angular_velocity),
@@ -269,7 +263,7 @@ Rows launcher_rows() {
       row("launcher[].seed", "", {0, 1e15}, FIELD(model.launchers[i].seed),
           "Seed of the random sequence: the same seed throws the same balls."),
       row("launcher[].count", "", {0, 10000000}, FIELD(model.launchers[i].count),
-          "Number of balls it throws."),
+          "Number of balls to throw."),
       row("launcher[].interval", "s", {0.0, longest}, FIELD(model.launchers[i].interval),
           "Time between two balls; the first comes at the start."),
       row("launcher[].from.min", "m", within(far), FIELD(model.launchers[i].from.min),
@@ -283,9 +277,9 @@ Rows launcher_rows() {
       row("launcher[].speed-factor", "1/s", {0.0, 1e6}, FIELD(model.launchers[i].speed_factor),
           "Velocity per distance from start to target."),
       row("launcher[].ball.radius", "m", positive_length, FIELD(model.launchers[i].ball.radius),
-          "Radius of its balls."),
+          "Radius of the balls."),
       row("launcher[].ball.mass", "kg", positive_mass, FIELD(model.launchers[i].ball.mass),
-          "Mass of its balls."),
+          "Mass of the balls."),
   };
   for (Parameter& p : rows) p.live = false;
   return rows;
@@ -296,7 +290,7 @@ Rows launcher_rows() {
 std::vector<Parameter> material_parameters() {
   return {
       unless_empty("no body can use it", "material[].name", FIELD(model.materials[i].name),
-                   "Name by which bodies use it."),
+                   "Name for use in bodies."),
       row("material[].density", "kg/m³", positive_mass, FIELD(model.materials[i].density), "Density ρ."),
       row("material[].youngs-modulus", "Pa", {0.0, stiffest, true}, FIELD(model.materials[i].youngs_modulus),
           "Young's modulus E."),

@@ -24,7 +24,7 @@ struct FileCells {
 
 Result<FileCells> cells_of(const NpyArray& array, const CellPalette& by_number) {
   if (!array.whole_numbers())
-    return fail(ErrorCode::scene_rejected, "it must be an array of whole numbers or truth values");
+    return fail(ErrorCode::scene_rejected, "it must be an array of integers or truth values");
   const std::size_t nx = array.shape()[0], ny = array.shape()[1], nz = array.shape()[2];
   FileCells cells;
   std::map<std::int64_t, char> known = {{0, '.'}};
@@ -46,11 +46,10 @@ Result<FileCells> cells_of(const NpyArray& array, const CellPalette& by_number) 
     if (!c && known.size() > most_materials)
       return fail(ErrorCode::scene_rejected, "it has more than {} materials", most_materials);
     if (!c)
-      return fail(
-          ErrorCode::scene_rejected,
-          "it has the number {} at [{}, {}, {}], which 'palette' does not name; add {} = \"…\" to it, "
-          "or have 0 where the cell is empty",
-          number, x, y, z, number);
+      return fail(ErrorCode::scene_rejected,
+                  "it has the number {} at [{}, {}, {}], which 'palette' does not name; add {} = \"…\" to "
+                  "'palette', or write 0 for an empty cell",
+                  number, x, y, z, number);
     cells.layers[y][z][x] = *c;
   }
   return cells;

@@ -70,13 +70,8 @@ std::variant<toml::table, Problem> parse(std::string_view text, std::uint32_t so
 
 std::string_view kind_text(const toml::node& node) {
   // By toml::node_type; what follows are dates and times.
-  constexpr std::string_view kinds[] = {"",
-                                        "a table",
-                                        "an array",
-                                        "a string",
-                                        "a whole number",
-                                        "a number with a decimal point",
-                                        "true or false"};
+  constexpr std::string_view kinds[] = {
+      "", "a table", "an array", "a string", "an integer", "a number with a decimal point", "true or false"};
   static_assert(static_cast<int>(toml::node_type::boolean) == 6 &&
                 static_cast<int>(toml::node_type::table) == 1 &&
                 static_cast<int>(toml::node_type::string) == 3);

@@ -35,11 +35,11 @@ constexpr std::array<Target, 24> targets = {{
     {"DrawSpringStructural", drawn, 2, ""},
     {"DrawSpringShear", drawn, 3, ""},
     {"DrawSpringBending", drawn, 4, ""},
-    {"DrawGoalpost", "", -1, "the posts are the net's pinned corners, drawn with it"},
+    {"DrawGoalpost", "", -1, "the posts are the net's pinned corners, rendered with it"},
     {"DrawPlane", "view.terrain", -1, ""},
     {"DrawBackground", "", -1, "there is one background"},
     {"DrawAxis", "view.axes", -1, ""},
-    {"SimulationStart", "", -1, "a scene does not say whether it runs at once"},
+    {"SimulationStart", "", -1, "scenes have no such setting"},
     {"IntegratorType", "simulation.integrator", -1, ""},
     {"NetInitPos_x", "goal-net[].position", 0, ""},
     {"NetInitPos_y", "goal-net[].position", 1, ""},
@@ -106,7 +106,7 @@ class Importer {
       key_ = trimmed(line.substr(1));
       key_line_ = line_;
       if (const auto [at, fresh] = seen_.emplace(key_, line_); !fresh) {
-        fail(fmt::format("*{} is in line {} already", shown(key_), at->second));
+        fail(fmt::format("*{} repeats line {}", shown(key_), at->second));
       }
     } else if (key_.empty()) {
       fail(fmt::format("\"{}\" is neither a key, which starts with *, nor the value of one", shown(line)));
@@ -122,12 +122,12 @@ class Importer {
     if (target == targets.end()) {
       std::vector<std::string_view> known;
       for (const Target& t : targets) known.push_back(t.key);
-      note(fmt::format("*{} is not known and was left out (value {}){}", shown(key_), shown(text),
+      note(fmt::format("*{} is unknown and was left out (value {}){}", shown(key_), shown(text),
                        diagnostics::did_you_mean(diagnostics::nearest(key_, known))));
       return;
     }
     if (target->path.empty()) {
-      note(fmt::format("*{} has no meaning here (value {}): {}", key_, shown(text), target->reason));
+      note(fmt::format("*{} has no equivalent (value {}): {}", key_, shown(text), target->reason));
       return;
     }
     const Parameter& p = *find_parameter(target->path);
@@ -144,7 +144,7 @@ class Importer {
   std::optional<Value> converted(const Parameter& p, const Target& target, double number) {
     const bool whole = number == std::floor(number) && std::abs(number) < 1e9;
     const auto need_whole = [&] {
-      fail(fmt::format("*{} must be a whole number, not {}", key_, number));
+      fail(fmt::format("*{} must be an integer, not {}", key_, number));
       return std::nullopt;
     };
     Value value = *p.get(result_.scene, 0);
@@ -187,7 +187,7 @@ class Importer {
   }
 
   void missing_value() {
-    problems_.push_back(fmt::format("{}:{}: *{} has no value: it belongs on the next line",
+    problems_.push_back(fmt::format("{}:{}: *{} has no value: write it on the next line",
                                     printable_line(file_name_), key_line_, shown(key_)));
   }
   void fail(const std::string& what) {
@@ -220,13 +220,12 @@ Result<ImportedConfiguration> import_configuration(std::string_view text, const 
 
 std::string imported_toml(const ImportedConfiguration& imported, const std::string& file_name) {
   std::string text = fmt::format(
-      "# Imported from {}. The launcher throws at random the balls that were shot by hand there.\n"
-      "# For that framework's own contact formulas set model = \"course\" and spin = false in [contact], as "
-      "the\n"
-      "# built-in scene course-2018 does.\n",
+      "# Imported from {}. The launcher throws balls at random in place of those that the user threw "
+      "there.\n# For that framework's own contact formulas set model = \"course\" and spin = false in "
+      "[contact], as the\n# built-in scene course-2018 does.\n",
       printable_line(file_name));
   for (const std::string& note : imported.notes)
-    text += fmt::format("# Not carried over: {}\n", printable_line(note));
+    text += fmt::format("# Not translated: {}\n", printable_line(note));
   return text + to_toml(imported.scene);
 }
 

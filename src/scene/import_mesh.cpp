@@ -124,9 +124,8 @@ Result<std::vector<std::string>> add_mesh(Scene& scene, const std::string& file)
   VoxelsSettings body;
   ASPIC_TRY(std::vector<std::string> notes, take_mesh(body, mesh, how, file));
   if (how.height > 0.0)
-    notes.push_back(
-        fmt::format("its file says {:.4g} m, and it was scaled to {:.4g} m, as long as what is there",
-                    longest_edge(extent), longest_edge(extent) * how.height / extent.y));
+    notes.push_back(fmt::format("its file gives {:.4g} m; scaled to {:.4g} m, the size of the other bodies",
+                                longest_edge(extent), longest_edge(extent) * how.height / extent.y));
   body.material.density = 1000.0;
   body.material.damping_ratio = 0.2;
   const double gravity = length(scene.model.simulation.gravity);

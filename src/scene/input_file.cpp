@@ -103,7 +103,7 @@ std::optional<double> InputReader::number(const toml::table& table, std::string_
 }
 
 std::optional<std::int64_t> InputReader::whole(const toml::table& table, std::string_view key) {
-  const auto taken = value<std::int64_t>(table, key, "a whole number", whole_of);
+  const auto taken = value<std::int64_t>(table, key, "an integer", whole_of);
   if (!taken || (*taken >= 0 && *taken <= last_step)) return taken;
   fail(table.get(key)->source(), fmt::format("'{}' must be 0 or more, and at most 2⁵³", key));
   return std::nullopt;
@@ -134,7 +134,7 @@ std::optional<Pull> InputReader::read_pull(const toml::table& table) {
   const bool ball = table.contains("ball");
   if (ball == table.contains("particle")) {
     fail(table.source(), ball ? "a pull has either 'particle' or 'ball', not both"
-                              : "a pull needs 'particle' or 'ball', the index of what it pulls");
+                              : "a pull needs 'particle' or 'ball', the index of its target");
     return std::nullopt;
   }
   pull.ball = ball;
@@ -183,11 +183,11 @@ void InputReader::add_named(const toml::node& node, const std::string& name,
   }
   const std::vector<std::string_view> known(bodies.begin(), bodies.end());
   if (known.empty())
-    return fail(node.source(), fmt::format("\"{}\": the scene has no body with names; give indices", name));
-  fail(node.source(),
-       fmt::format("\"{}\" names no part of a body: write {}, a dot, and a side or a corner as "
-                   "in the key 'pinned' of scenes, such as \"{}.top\"",
-                   name, diagnostics::list_text(known, false), known.front()));
+    return fail(node.source(),
+                fmt::format("\"{}\": no body of the scene has names for its parts; give indices", name));
+  fail(node.source(), fmt::format("\"{}\" names no part of a body: write {}, a dot, and a side or a corner "
+                                  "as in the key 'pinned' of scenes, such as \"{}.top\"",
+                                  name, diagnostics::list_text(known, false), known.front()));
 }
 
 std::vector<std::uint32_t> InputReader::read_particles(const toml::table& table, std::string_view key) {
@@ -225,7 +225,7 @@ void InputReader::read_channels(const toml::table& table, Inputs& inputs) {
     if (channel == known.size())
       fail(name.source(),
            known.empty()
-               ? std::string("no actuator of the scene has signal = \"input\", so none reads a channel")
+               ? std::string("no actuator of the scene has signal = \"input\", so no channel has an effect")
                : fmt::format("no actuator '{}' reads a channel; those that do are {}{}", name.str(),
                              diagnostics::list_text(known, false),
                              diagnostics::did_you_mean(diagnostics::nearest(name.str(), known))));
@@ -240,10 +240,10 @@ void InputReader::read_entry(const toml::table& table, InputLog& log) {
   constexpr std::string_view keys[] = {"step", "pulls", "pinned", "released", "channels"};
   check_keys(table, "[[inputs]]", keys);
   if (!table.contains("step"))
-    fail(table.source(), "[[inputs]] needs 'step', the number of the first step that it is valid for");
+    fail(table.source(), "[[inputs]] needs 'step', the first step for which it is valid");
   const auto step = whole(table, "step");
   if (step && step_ && *step <= *step_)
-    fail(table.get("step")->source(), fmt::format("'step' must be larger than that before, {}", *step_));
+    fail(table.get("step")->source(), fmt::format("'step' must exceed that before, {}", *step_));
   if (step) step_ = step;
   Inputs inputs;
   const std::size_t before = problems_.size();
@@ -266,9 +266,10 @@ void InputReader::read_entry(const toml::table& table, InputLog& log) {
     });
   }
   if (particles_ > most_particles)
-    fail(table.source(), fmt::format("more than {} particles are pinned or released in all: pin fewer, or "
-                                     "change pins less often",
-                                     most_particles));
+    fail(table.source(),
+         fmt::format(
+             "more than {} particles are pinned or released in all: pin fewer, or change pins less often",
+             most_particles));
   if (problems_.size() > before || !step) return;
   if (const auto taken = rounded_inputs(run_.model, inputs, Precision::double_); !taken) {
     const auto key = std::ranges::find_if(
@@ -321,9 +322,8 @@ Result<InputLog> read_inputs(const std::string& path, const LoggedRun& run) {
 
 std::string to_toml(const InputLog& log, double timestep) {
   std::string text = fmt::format(
-      "# Inputs of a run: each table says what acts from the beginning of its step on, until the next "
-      "table.\n"
-      "timestep = {}  # s\n",
+      "# Inputs of a run: each table acts from the beginning of its step until the next table.\ntimestep = "
+      "{}  # s\n",
       toml_value(timestep));
   for (const auto& [step, inputs] : log.entries()) {
     text += fmt::format("\n[[inputs]]\nstep = {}\n", step);

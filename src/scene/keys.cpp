@@ -51,7 +51,7 @@ Result<std::optional<ParameterValue>> value_of(const Scene& scene, const std::st
   const std::array assignment = {key + "=0"};
   auto refused = with_overrides(scene, assignment);
   if (!refused) return refused.error();
-  return fail(ErrorCode::scene_rejected, "{} is no key that has a value.", key);
+  return fail(ErrorCode::scene_rejected, "unknown key {}. Name a key that has a value.", key);
 }
 
 std::vector<std::string> body_names(const ModelSettings& settings) {

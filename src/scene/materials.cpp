@@ -86,8 +86,8 @@ Status rename_material(Scene& scene, std::size_t index, const std::string& name)
   const std::string before = settings.materials[index].name;
   if (name == before) return {};
   if (name.empty())
-    return fail(ErrorCode::scene_rejected,
-                "A material needs a name, by which bodies use it; {} keeps its own.", excerpt(before, 40));
+    return fail(ErrorCode::scene_rejected, "A material needs a name for use in bodies; {} keeps its own.",
+                excerpt(before, 40));
   if (find_material(settings, name))
     return fail(ErrorCode::scene_rejected,
                 "Another material is called \"{}\"; names are unique, and \"{}\" keeps its own.",
@@ -116,8 +116,8 @@ Result<std::string> remove_material(Scene& scene, std::size_t index) {
     for (const auto& [cell, material] : settings.voxels[i].palette)
       if (material == removed.name && has_cell(settings.voxels[i], cell.front()))
         return fail(ErrorCode::scene_rejected,
-                    "The material \"{}\" stays: cells '{}' of voxels[{}] are of it. Choose another one for "
-                    "them in the palette, or erase them first.",
+                    "Cannot remove the material \"{}\": cells '{}' of voxels[{}] use it. Choose another one "
+                    "for them in the palette, or erase them first.",
                     excerpt(removed.name, 40), cell, i);
   std::string selector;
   for_each_selection(scene, [&](const Parameter& p, std::size_t i, const std::vector<std::string>& names) {
@@ -125,7 +125,7 @@ Result<std::string> remove_material(Scene& scene, std::size_t index) {
   });
   if (named && !selector.empty())
     return fail(ErrorCode::scene_rejected,
-                "The material \"{}\" stays: {} selects cells by it. Have it select others first.",
+                "Cannot remove the material \"{}\": {} selects cells by it. Change that first.",
                 excerpt(removed.name, 40), selector);
   std::string mended;
   if (named) {

@@ -34,8 +34,8 @@ Result<std::vector<std::string>> take_mesh(VoxelsSettings& voxels, const MeshFil
                                            const VoxelisationSettings& how, const std::string& name) {
   if (voxels.palette.size() > 1)
     return fail(ErrorCode::scene_rejected,
-                "{}: a mesh is of one material, and 'palette' has {}; leave one of them",
-                printable_line(name), voxels.palette.size());
+                "{}: a mesh has one material, and 'palette' has {}; remove one of them", printable_line(name),
+                voxels.palette.size());
   ASPIC_TRY(VoxelisedMesh made, voxelise(file.mesh, how, name));
   std::vector<std::string> notes = file.notes;
   for (std::string& sentence : sentences_of(made)) notes.push_back(std::move(sentence));
@@ -46,10 +46,10 @@ Result<std::vector<std::string>> take_mesh(VoxelsSettings& voxels, const MeshFil
   voxels.skin = to_skin_text(made.skin);
   const SkinBinding binding = bind_skin(lattice_of(made.grid), made.skin.vertices);
   if (binding.clamped > 0)
-    notes.push_back(fmt::format(
-        "{} of {} vertices of the skin were farther than half a cell from every full cell and were "
-        "moved to it",
-        binding.clamped, binding.vertices.size()));
+    notes.push_back(
+        fmt::format("{} of {} vertices of the skin were farther than half a cell from every full cell, and "
+                    "were moved there",
+                    binding.clamped, binding.vertices.size()));
   return notes;
 }
 
@@ -98,7 +98,7 @@ void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources
       const auto other = reader.written().find(path_text(key, i));
       if (any || other == reader.written().end() || other->second.problem) continue;
       reader.blame(other->first,
-                   fmt::format("'{}' is for a mesh; add the key 'mesh', or leave it out", key.substr(9)));
+                   fmt::format("'{0}' applies to a mesh; add the key 'mesh', or remove '{0}'", key.substr(9)));
     }
     const std::string name = given<std::string>(reader, "voxels[].mesh", i, "");
     if (!any || written->second.problem || name.empty()) continue;

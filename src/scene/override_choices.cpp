@@ -63,7 +63,7 @@ void resolve_material(Reader& reader, const BodyInList& body, bool had_material)
                             body.list));
   } else if (set_explicit) {
     reader.fail(*set_explicit,
-                fmt::format("this {} is made of a material, which decides its masses and springs; set "
+                fmt::format("this {} has a material, which sets its masses and springs; set "
                             "material.density, material.youngs-modulus or material.damping-ratio, or all of "
                             "particle-mass, structural, shear and bending with stiffness and damping",
                             body.list));

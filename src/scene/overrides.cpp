@@ -83,9 +83,8 @@ std::string advice_on(std::string_view value, std::string_view unit) {
     const auto one = mistaken_number(value);
     if (one && one->rest.empty() && std::ranges::count(value, ',') == 1 &&
         value.find('.') == std::string_view::npos)
-      return fmt::format("numbers have a decimal point, {}; a list stands in brackets, [{}]", one->number,
-                         value);
-    return fmt::format("a list stands in brackets, [{}]", value);
+      return fmt::format("numbers have a decimal point, {}; a list needs brackets, [{}]", one->number, value);
+    return fmt::format("a list needs brackets, [{}]", value);
   }
   const auto number = mistaken_number(value);
   if (!number || number->rest.empty()) return "";
@@ -148,7 +147,7 @@ class Argument {
           segment.element = digits.substr(0, digits.size() - 1);
         } else if (error != std::errc() || rest != "]") {
           fail(segment.column + characters(part.substr(0, bracket)) + 1,
-               "an index is a whole number from 0 in brackets, such as cube[0]");
+               "an index is an integer from 0 in brackets, such as cube[0]");
           return false;
         } else {
           segment.index = index;
@@ -179,10 +178,9 @@ class Argument {
           !advice.empty())
         fail(column, advice);
       else
-        fail(column,
-             fmt::format("the value is neither a TOML value nor a single word; text with spaces needs "
-                         "quotation marks inside the argument: '{}=\"…\"' ({})",
-                         text_.substr(0, equals), problem->message));
+        fail(column, fmt::format("the value is neither a TOML value nor a single word; text with spaces "
+                                 "needs quotation marks inside the argument: '{}=\"…\"' ({})",
+                                 text_.substr(0, equals), problem->message));
       return false;
     }
     table_ = std::move(std::get<toml::table>(parsed));
@@ -221,9 +219,8 @@ class Argument {
     if (!path.empty()) return diagnostics::unknown_key(path, name);
     if (const ShortKey* const row = segments_.size() == 1 ? find_short_key(name) : nullptr) {
       const auto targets = row->targets(reader_.scene());
-      return fmt::format(
-          "'{}' is a short name for comparisons and sweeps; here is a key of the scene needed{}", name,
-          targets.empty() ? "" : fmt::format(", such as '{}'", targets.front().path));
+      return fmt::format("'{}' is a short name for comparisons and sweeps; use a scene key here{}", name,
+                         targets.empty() ? "" : fmt::format(", such as '{}'", targets.front().path));
     }
     // The end of a key alone, `shear.stiffness`.
     const std::string ending = "." + parameter_path();
@@ -308,7 +305,7 @@ class Argument {
     const std::vector<std::string_view> known(names.begin(), names.end());
     const std::uint32_t at = segment.column + characters(segment.name) + 1;
     if (known.empty())
-      fail(at, "an index is a whole number from 0 in brackets, such as cube[0]");
+      fail(at, "an index is an integer from 0 in brackets, such as cube[0]");
     else
       fail(at, fmt::format("the scene has no {} of that name; it has {}{}", segment.name,
                            diagnostics::list_text(known, false),

@@ -40,7 +40,7 @@ Rows simulation_rows() {
                             "Time integration method."),
       row("simulation.timestep", "s", {0.0, 1.0, true}, FIELD(model.simulation.timestep), "Time step h."),
       row("simulation.duration", "s", {0.0, longest}, FIELD(model.simulation.duration),
-          "Simulated time of a run that is given neither steps nor a duration."),
+          "Simulated time of a run, unless it sets steps or a duration."),
       row("simulation.gravity", "m/s²", within(1e4), FIELD(model.simulation.gravity),
           "Gravitational acceleration g."),
       row("simulation.drag", "1/s", {0.0, 1000.0}, FIELD(model.simulation.drag),
@@ -64,10 +64,9 @@ Rows contact_rows() {
   return {
       word<contact_models>(
           "contact.model", FIELD(model.contact.model),
-          "Contact law: Coulomb contact that comes to rest, or the original assignments' formulas."),
+          "Contact law: Coulomb contact with rest, or the formulas of the original assignments."),
       row("contact.epsilon", "m, m/s", {0.0, 1.0, true}, FIELD(model.contact.epsilon),
-          "Distance within which a particle may rest on the ground, and the least approach speed that "
-          "bounces."),
+          "Distance from the ground within which a particle may rest, and least approach speed of a bounce."),
       row("contact.restitution", "", fraction, FIELD(model.contact.restitution),
           "Coefficient of restitution of terrains that do not set their own."),
       row("contact.friction", "", friction, FIELD(model.contact.friction),
@@ -76,12 +75,12 @@ Rows contact_rows() {
           "Restitution between balls, and between balls and particles."),
       row("contact.ball-friction", "", friction, FIELD(model.contact.ball_friction),
           "Friction coefficient between balls, and between balls and particles."),
-      row("contact.spin", FIELD(model.contact.spin), "Whether friction makes balls rotate."),
+      row("contact.spin", FIELD(model.contact.spin), "Makes balls rotate by friction."),
       fixed(row("contact.bodies", FIELD(model.contact.bodies), "Enable contact between bodies.")),
       fixed(row("contact.self", FIELD(model.contact.self),
                 "Enable contact of each body with itself, between parts that are apart at rest.")),
       row("contact.body-friction", "", friction, FIELD(model.contact.body_friction),
-          "Friction coefficient of bodies that do not set their own; of two that touch the smaller counts."),
+          "Friction coefficient of bodies that do not set their own; the smaller of the two applies."),
       row("contact.body-gap", "", {0.0, 1.0, true}, FIELD(model.contact.body_gap),
           "Distance at which normal forces between bodies begin, in spacings of their particles."),
       row("contact.body-damping", "", fraction, FIELD(model.contact.body_damping),
@@ -122,7 +121,7 @@ Parameter geometry_row(const GeometryKey& key) {
 
 Rows terrain_rows() {
   Rows rows = {word<terrain_shapes>("terrain[].shape", FIELD(model.terrain[i].shape),
-                                    "Shape of the resting surface; a bowl is the inside of a sphere.")};
+                                    "Shape of the terrain; a bowl is the inside of a sphere.")};
   rows.front().live = false;  // another one would begin somewhere inside the bodies
   for (const TerrainShapeRow& shape : terrain_shapes) {
     for (const GeometryKey& key : shape.keys) {
@@ -144,7 +143,7 @@ Rows terrain_rows() {
   const Rows motion =
       of(Belonging::motion,
          {direction(row("terrain[].motion.direction", MOTION(direction),
-                        "Direction along which the terrain moves to and fro; its length does not matter.")),
+                        "Direction of the terrain's oscillation, of any length.")),
           row("terrain[].motion.amplitude", "m", {0.0, far}, MOTION(amplitude),
               "Largest displacement A; the terrain is displaced by A·sin 2π(f·t + φ)."),
           row("terrain[].motion.frequency", "Hz", {0.0, 1e4}, MOTION(frequency), "Frequency f."),
@@ -154,24 +153,23 @@ Rows terrain_rows() {
 
 Rows view_rows() {
   Parameter draw = row("view.draw", FIELD(view.draw),
-                       "Parts of the bodies that are drawn: surface, particles, springs by type.");
+                       "Parts of the bodies to render: surface, particles, springs by type.");
   draw.words = {"solid", "particles", "structural", "shear", "bending"};
   Parameter arrows = row("view.arrows", FIELD(view.arrows),
-                         "Arrows at particles: contact points with their normals and forces; the sum of the "
-                         "springs' forces; gravity and a hand's pull; all together.");
+                         "Arrows at particles: contact points with normals and forces; the sum of spring "
+                         "forces; gravity and mouse pulls; all together.");
   arrows.words = {"contacts", "springs", "external", "net"};
-  Parameter follow = absent("the camera stays where it is",
-                            row("view.follow", FIELD(view.follow),
-                                "Body or ball that the camera moves along with from its start, such as "
-                                "\"cube[0]\", \"ball[2]\" or a body's own name; \"none\" is as if absent."));
+  Parameter follow =
+      absent("a fixed camera", row("view.follow", FIELD(view.follow),
+                                   "Body or ball for the camera to follow, such as \"cube[0]\", \"ball[2]\" "
+                                   "or a body's name; \"none\" is the default."));
   follow.write = [](const Parameter&, Scene& scene, std::size_t, const Value& value) {
     const auto& name = std::get<std::string>(value);
     scene.view.follow = name == "none" ? std::nullopt : std::optional(name);
   };
   Parameter position =
       row("view.camera.position", "m", within(far), FIELD(view.camera.position),
-          "Position of the camera. Without this and a target, the camera shows the bodies as "
-          "they start.");
+          "Position of the camera. Without position and target, the camera shows the bodies at the start.");
   position.write = [](const Parameter&, Scene& scene, std::size_t, const Value& value) {
     scene.view.camera.position = std::get<Vec3>(value);
     scene.view.aimed = false;
@@ -188,36 +186,33 @@ Rows view_rows() {
       row("view.camera.fov", "°", {1.0, 179.0}, FIELD(view.camera.fov), "Vertical field of view."),
       word<projections>(
           "view.camera.projection", FIELD(view.camera.projection),
-          "Perspective, or orthographic: parallel, as high as the field of view is at the target."),
+          "Perspective, or orthographic: parallel, with the height of the field of view at the target."),
       draw,
       follow,
-      word<view_colours>("view.colour", FIELD(view.colour), "Quantity that the colors of bodies show."),
+      word<view_colours>("view.colour", FIELD(view.colour), "Quantity to show as the colors of bodies."),
       word<cut_insides>("view.cut.inside", FIELD(view.cut.inside),
-                        "Inside of bodies in a cut: a filled section in their colors, or the springs before "
-                        "one; off: no cut."),
+                        "Inside of bodies in a cut: a filled section in their colors, or the springs in "
+                        "front of one; off: no cut."),
       direction(row("view.cut.normal", FIELD(view.cut.normal),
-                    "Normal of the cut's plane; the side that it points to is not drawn.")),
+                    "Normal of the cut's plane, towards the hidden side.")),
       row("view.cut.offset", "m", within(far), FIELD(view.cut.offset),
           "Distance of the cut's plane from the world's origin, along its normal."),
-      row("view.terrain", FIELD(view.terrain), "Whether terrain is drawn; bodies touch it in either case."),
-      row("view.axes", FIELD(view.axes), "Whether the world's axes are drawn in a corner of the image."),
+      row("view.terrain", FIELD(view.terrain), "Shows terrain; bodies collide with it in either case."),
+      row("view.axes", FIELD(view.axes), "Shows the world's axes in a corner of the image."),
       arrows,
-      absent("as long as fits the image",
-             row("view.arrow-scale", "N/m", {0.0, 1e12, true}, FIELD(view.arrow_scale),
-                 "Force that an arrow of a metre represents.")),
+      absent("as long as fits the image", row("view.arrow-scale", "N/m", {0.0, 1e12, true},
+                                              FIELD(view.arrow_scale), "Force of an arrow of one meter.")),
       word<scale_maps>("view.scale.map", FIELD(view.scale.map),
-                       "Colours of the scale; automatic: blue-red for signed strain, else violet-yellow."),
+                       "Colors of the scale; automatic: blue-red for signed strain, else violet-yellow."),
       word<scale_ranges>("view.scale.range", FIELD(view.scale.range),
-                         "Values at the ends of the scale: fixed for the run, those of each image "
-                         "(automatic), or those of each image with 0 in the middle (symmetric)."),
-      absent("suits the scene",
-             row("view.scale.from", "", within(1e12), FIELD(view.scale.from),
-                 "Value at the lower end of a fixed scale, in N, J or m/s; strain as a ratio.")),
-      absent("suits the scene",
-             row("view.scale.to", "", within(1e12), FIELD(view.scale.to),
-                 "Value at the upper end of a fixed scale, in N, J or m/s; strain as a ratio.")),
+                         "Ends of the scale: fixed for the run, those of each image (automatic), or those of "
+                         "each image with 0 in the middle (symmetric)."),
+      absent("by scene", row("view.scale.from", "", within(1e12), FIELD(view.scale.from),
+                             "Value at the lower end of a fixed scale, in N, J or m/s; strain as a ratio.")),
+      absent("by scene", row("view.scale.to", "", within(1e12), FIELD(view.scale.to),
+                             "Value at the upper end of a fixed scale, in N, J or m/s; strain as a ratio.")),
       absent("none", row("view.ground", "m", within(far), FIELD(view.ground),
-                         "Height of a level grid that is drawn only: bodies fall through it.")),
+                         "Height of a level grid without contact.")),
   };
 }
 

@@ -43,14 +43,14 @@ std::string range_text(const Parameter& p) {
 
 std::optional<std::string> complaint_about(const Parameter& p, double value) {
   if (!std::isfinite(value)) {
-    const char* hint = p.when_absent == "infinite" ? "; leave the key out for an infinite one" : "";
+    const char* hint = p.when_absent == "infinite" ? "; omit the key for an infinite one" : "";
     return fmt::format("'{}' must be finite, not {}{}; allowed: {}", key_text(p), value, hint,
                        allowed_text(p));
   }
   const Range& r = p.range;
   if (value < r.min || value > r.max || (r.min_excluded && value == r.min)) {
     if (p.path == "schema") {
-      return fmt::format("unknown schema version {}; this version of the program reads schema = {}", value,
+      return fmt::format("unknown schema version {}; this version of Aspic reads schema = {}", value,
                          scene_schema);
     }
     return fmt::format("'{}' is out of range: {}; allowed: {}", key_text(p), value, allowed_text(p));
@@ -66,7 +66,7 @@ std::optional<std::string> complaint_about(const Parameter& p, double value) {
 std::optional<std::string> complaint_about_word(const Parameter& p, const std::string& word) {
   const bool known = std::ranges::find(p.words, word) != p.words.end();
   if (known || (p.pins && p.pins->knows(word))) return std::nullopt;
-  return fmt::format("'{}' does not know \"{}\"; allowed: {}{}", key_text(p), word, allowed_text(p),
+  return fmt::format("'{}' has the unknown value \"{}\"; allowed: {}{}", key_text(p), word, allowed_text(p),
                      diagnostics::did_you_mean(diagnostics::nearest(word, p.words)));
 }
 
@@ -262,7 +262,7 @@ std::string allowed_text(const Parameter& p) {
     case ParameterType::boolean:
       return "true or false";
     case ParameterType::integer:
-      return fmt::format("a whole number, {}", range_text(p));
+      return fmt::format("an integer, {}", range_text(p));
     case ParameterType::number:
       return fmt::format("a number {}", range_text(p));
     case ParameterType::text:
@@ -277,7 +277,7 @@ std::string allowed_text(const Parameter& p) {
     case ParameterType::counts:
     case ParameterType::numbers:
       return fmt::format("{} {} [along x, y{}], each {}", p.components == 2 ? "two" : "three",
-                         p.type == ParameterType::counts ? "whole numbers" : "numbers",
+                         p.type == ParameterType::counts ? "integers" : "numbers",
                          p.components == 2 ? "" : ", z", range_text(p));
     case ParameterType::pinned:
       return fmt::format("an array of {}s ({}), corners ({}) and local indices 0 … {}", p.pins->side,

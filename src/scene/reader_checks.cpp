@@ -32,8 +32,8 @@ void Reader::check_materials(std::vector<Problem>& problems) const {
       if (material != written_.end() && !others.empty()) {
         const std::vector<std::string_view> names(others.begin(), others.end());
         problems.push_back(
-            {material->second.key, fmt::format("a {} has either 'material' or the masses and springs it "
-                                               "decides, not both; leave out 'material' or {}",
+            {material->second.key, fmt::format("a {} has either 'material' or the masses and springs that it "
+                                               "sets, not both; remove 'material' or {}",
                                                list.key, diagnostics::list_text(names, false))});
       }
       const MaterialSettings* const made = made_of(scene_.model, section, i);
@@ -42,24 +42,20 @@ void Reader::check_materials(std::vector<Problem>& problems) const {
         if (p.belonging != Belonging::material || p.section() != section || made || key == written_.end())
           continue;
         problems.push_back(
-            {key->second.key, fmt::format("'{}' is that of a {} with a 'material': add one, or leave "
-                                          "'{}' out",
+            {key->second.key, fmt::format("'{}' applies to a {} with a 'material': add one, or remove '{}'",
                                           key_text(p), list.key, p.key())});
       }
       if (!made && material != written_.end() && list.key == "voxels")
-        problems.push_back(
-            {material->second.key,
-             "a body of cells has either 'material', which all cells are of, or a 'palette' of "
-             "materials, not both; leave out one of them"});
+        problems.push_back({material->second.key,
+                            "a body of cells has either 'material', for all cells, or a 'palette' of "
+                            "materials, not both; remove one of them"});
       if (!made || made->name.empty()) continue;
       for (const std::string_view key : child_keys(section + ".material")) {
         const auto number = written_.find(path_text(fmt::format("{}.material.{}", section, key), i));
         if (key == "name" || number == written_.end()) continue;
-        problems.push_back(
-            {number->second.key,
-             fmt::format("a material has either a 'name' or numbers, not both; set 'material[{}].{}', "
-                         "or leave out the name",
-                         made->name, key)});
+        problems.push_back({number->second.key, fmt::format("a material has either a 'name' or numbers, not "
+                                                            "both; set 'material[{}].{}', or remove the name",
+                                                            made->name, key)});
       }
     }
   }
@@ -80,23 +76,21 @@ std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes)
     if (edges != written_.end() && box != written_.end())
       problems.push_back(
           {std::max(edges->second.key, box->second.key),
-           "a cube has either 'particles-per-edge' or, as a box, 'particles', not both; leave out "
-           "one of them"});
+           "a cube has either 'particles-per-edge' or, as a box, 'particles', not both; remove one of them"});
   }
   for (std::size_t v = 0; v < scene_.model.voxels.size(); ++v) {
     const auto layers = written_.find(path_text("voxels[].layers", v));
     const auto file = written_.find(path_text("voxels[].file", v));
     if (layers != written_.end() && file != written_.end())
-      problems.push_back({std::max(layers->second.key, file->second.key),
-                          "a body of cells has either 'layers' or a 'file' of them, not both; leave out one "
-                          "of them"});
+      problems.push_back(
+          {std::max(layers->second.key, file->second.key),
+           "a body of cells has either 'layers' or a 'file' of them, not both; remove one of them"});
     const auto mesh = written_.find(path_text("voxels[].mesh", v));
     for (const std::string_view other : {"layers", "file", "size", "skin"}) {
       const auto also = written_.find(path_text(fmt::format("voxels[].{}", other), v));
       if (mesh != written_.end() && also != written_.end())
-        problems.push_back(
-            {std::max(mesh->second.key, also->second.key),
-             fmt::format("'{}' follows from the mesh; leave out 'mesh' or '{}'", other, other)});
+        problems.push_back({std::max(mesh->second.key, also->second.key),
+                            fmt::format("'{}' follows from the mesh; remove 'mesh' or '{}'", other, other)});
     }
   }
   for (std::size_t a = 0; a < scene_.model.actuators.size(); ++a) {
@@ -106,19 +100,19 @@ std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes)
         problems.push_back({std::max(first->second.key, second->second.key), std::string(message)});
     };
     either("actuator[].amplitude", "actuator[].volume-change",
-           "an actuator has either 'amplitude' or 'volume-change', not both; leave out one of them");
+           "an actuator has either 'amplitude' or 'volume-change', not both; remove one of them");
     either("actuator[].phase.cells", "actuator[].phase.file",
-           "an actuator's phases are either 'cells' or a 'file' of them, not both; leave out one of them");
+           "an actuator's phases are either 'cells' or a 'file' of them, not both; remove one of them");
     either("actuator[].select.voxels", "actuator[].select.file",
-           "a mask is either 'voxels' or a 'file' of them, not both; leave out one of them");
+           "a mask is either 'voxels' or a 'file' of them, not both; remove one of them");
     const auto table = written_.find(path_text("actuator[].table", a)),
                signal = written_.find(path_text("actuator[].signal", a));
     if (table != written_.end() && signal != written_.end() && table->second.key.source == 0 &&
         signal->second.key.source == 0 && !signal->second.problem &&
         scene_.model.actuators[a].signal != Signal::table)
-      problems.push_back({table->second.key,
-                          "'actuator.table' is the signal \"table\": write signal = \"table\", or "
-                          "leave 'table' out"});
+      problems.push_back(
+          {table->second.key,
+           "'actuator.table' needs the signal \"table\": write signal = \"table\", or remove 'table'"});
   }
   check_materials(problems);
   for (const SceneComplaint& complaint : check_scene(scene_, memory_bytes)) {

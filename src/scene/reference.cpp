@@ -73,20 +73,15 @@ std::string table_row(const Parameter& p) {
 
 std::string scene_reference(std::string_view option) {
   std::string page = fmt::format(
-      "# Scene file reference\n\n"
-      "A scene is one TOML file. This page is generated from the program's parameter table: every key, what "
-      "it means,\n"
-      "what is allowed and the default. Units are SI. Every key can be set on the command "
-      "line as well,\n"
-      "by its path: `{0} simulation.timestep=0.002`, `{0} 'cube[0].shear.stiffness=10'`, `{0} "
-      "contact.model=course`,\n"
-      "`{0} 'cube[0].pinned=[\"top\", 3]'`. A value is written as in the file; a single word needs no "
-      "quotation marks.\n"
-      "`[+]` in the place of an index adds an element: `{0} 'ball[+]={{ radius = 0.2 }}'`.\n"
-      "A key marked *live* may change while a simulation runs; changing any other restarts it.\n\n"
-      "A part that is not in the file is not in the scene: without `[[cube]]` there is no cube. Inner tables "
-      "may be written\n"
-      "inline, `shear = {{ stiffness = 2000.0, damping = 60.0 }}`, or as separate tables.\n\n",
+      "# Scene file reference\n\nA scene is one TOML file. Aspic generates this page from its parameter "
+      "table: every key, its meaning,\nallowed values and default. Units are SI. Every key can be set on the "
+      "command line as well,\nby its path: `{0} simulation.timestep=0.002`, `{0} "
+      "'cube[0].shear.stiffness=10'`, `{0} contact.model=course`,\n`{0} 'cube[0].pinned=[\"top\", 3]'`. A "
+      "value is written as in the file; a single word needs no quotation marks.\n`[+]` in the place of an "
+      "index adds an element: `{0} 'ball[+]={{ radius = 0.2 }}'`.\nA key marked *live* may change while a "
+      "simulation runs; changing any other restarts it.\n\nA scene has only the parts that its file has: "
+      "without `[[cube]]` there is no cube. Inner tables may be written\ninline, `shear = {{ stiffness = "
+      "2000.0, damping = 60.0 }}`, or as separate tables.\n\n",
       option);
   std::string_view section = "-";
   for (const Parameter& p : parameters()) {

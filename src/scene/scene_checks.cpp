@@ -96,8 +96,8 @@ void check_names(const Scene& scene, Complaints& complaints) {
       const auto name = p->get(scene, i);
       const auto first = name ? element_named(scene, list.key, std::get<std::string>(*name)) : std::nullopt;
       if (first.value_or(i) == i) continue;
-      complaints.push_back({{fmt::format("'{}' \"{}\" is taken: another [[{}]] has it", key_text(*p),
-                                         excerpt(std::get<std::string>(*name), 40), list.key)},
+      complaints.push_back({{fmt::format("'{}' \"{}\" is taken: another [[{}]] has it. Choose another name",
+                                         key_text(*p), excerpt(std::get<std::string>(*name), 40), list.key)},
                             path_text(p->path, i),
                             path_text(p->path, *first)});
     }

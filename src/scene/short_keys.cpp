@@ -91,8 +91,7 @@ Result<std::vector<std::string>> assignments(const Scene& scene, std::string_vie
   }
   const std::vector<ShortKeyTarget> targets = row->targets(scene);
   if (targets.empty()) {
-    return fail(ErrorCode::usage,
-                "{} means {}, and {} has nothing of the kind; name a key that it has (aspic scene show).",
+    return fail(ErrorCode::usage, "{} sets {}, but {} has none. List the scene's keys with aspic scene show.",
                 key, row->meaning, scene.name);
   }
   std::vector<std::string> result;

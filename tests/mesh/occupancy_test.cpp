@@ -48,7 +48,7 @@ TEST(Occupancy, PiecesHangTogetherByFaces) {
   grid = make();
   const auto refused = keep_pieces(grid, Pieces::refuse);
   ASSERT_FALSE(refused.ok());
-  EXPECT_THAT(refused.error().what, HasSubstr("3 pieces, which no face connects: of 3, 2, 1 cells"));
+  EXPECT_THAT(refused.error().what, HasSubstr("3 pieces that share no face: of 3, 2, 1 cells"));
   EXPECT_FALSE(refused.error().remedies.empty());
 }
 

@@ -140,7 +140,7 @@ TEST(ReadObj, TakesEveryKindOfLineEnd) {
     const auto read = parse_obj(other, "a.obj");
     ASSERT_TRUE(read.ok()) << read.error().what;
     EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
-    EXPECT_THAT(obj_error(other + "v x"), HasSubstr("a.obj:7: 'x' is no number"));
+    EXPECT_THAT(obj_error(other + "v x"), HasSubstr("a.obj:7: 'x' is not a number"));
   }
 }
 
@@ -154,7 +154,7 @@ TEST(ReadObj, LinesContinueAfterABackslashAndFacesMayComeFirst) {
   const auto read = parse_obj("f 1 \\\n 2 \\\n 3\n" + std::string(corners), "a.obj");
   ASSERT_TRUE(read.ok()) << read.error().what;
   EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
-  EXPECT_THAT(obj_error("v 0 0 \\\n 0\nv x 0 0\n"), HasSubstr("a.obj:3: 'x' is no number"));
+  EXPECT_THAT(obj_error("v 0 0 \\\n 0\nv x 0 0\n"), HasSubstr("a.obj:3: 'x' is not a number"));
 }
 
 TEST(ReadObj, NumbersThatAreNotFiniteAreReadForRepairToLeaveOut) {
@@ -169,7 +169,7 @@ TEST(ReadObj, ErrorsNameTheLineAndWhatHelps) {
   EXPECT_THAT(obj_error("v 0 0\n"),
               HasSubstr("a.obj:1: this vertex has less than three numbers; a vertex is v 0.1 0.2 0.3"));
   EXPECT_THAT(obj_error("\nv 0,5 0 0\n"),
-              HasSubstr("a.obj:2: '0,5' is no number; export with decimal points"));
+              HasSubstr("a.obj:2: '0,5' is not a number; export with decimal points"));
   EXPECT_THAT(obj_error(std::string(corners) + "f 1 2 0\n"), HasSubstr("a.obj:5: '0' names no vertex"));
   EXPECT_THAT(obj_error(std::string(corners) + "f 1 2 -5\n"),
               HasSubstr("a.obj:5: '-5' names a vertex before the first: there are 4"));
@@ -186,7 +186,7 @@ TEST(ReadObj, ErrorsNameTheLineAndWhatHelps) {
 TEST(ReadObj, NotesWhatItDoesNotKnow) {
   const auto read = parse_obj(std::string(corners) + "wobble 3\nf 1 2\nf 1 2 3\nwobble\n", "a.obj");
   ASSERT_TRUE(read.ok()) << read.error().what;
-  EXPECT_THAT(read->notes, ElementsAre("line 5: 'wobble' is not known and was passed over",
+  EXPECT_THAT(read->notes, ElementsAre("line 5: ignored the unknown 'wobble'",
                                        "faces of less than three corners were left out: 1"));
 }
 
@@ -195,7 +195,7 @@ TEST(ReadMesh, EndingOrBeginningChoosesTheFormat) {
   const auto unknown = parse_mesh("glTF", "bunny.glb");
   ASSERT_FALSE(unknown.ok());
   EXPECT_THAT(unknown.error().what,
-              HasSubstr("bunny.glb: this is no kind of mesh that is read: those are .obj, .stl, .ply"));
+              HasSubstr("bunny.glb: unsupported mesh format (supported: .obj, .stl, .ply"));
   const auto ply = parse_mesh("ply\nformat ascii 1.0\nend_header\n", "bunny");
   ASSERT_FALSE(ply.ok());
   EXPECT_THAT(ply.error().what, HasSubstr("no vertex and no face"));

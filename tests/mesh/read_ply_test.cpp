@@ -107,17 +107,17 @@ TEST(ReadPly, HeaderErrorsNameTheLine) {
   EXPECT_THAT(ply_error("ply\nformat ascii 1.0\nelement vertex 1\n"),
               HasSubstr("a.ply:3: the header has no end"));
   EXPECT_THAT(ply_error("ply\nend_header\n"), HasSubstr("a.ply:2: the header names no format"));
-  EXPECT_THAT(ply_error("ply\nformat utf8 1.0\n"), HasSubstr("a.ply:2: 'utf8' is no format of PLY"));
+  EXPECT_THAT(ply_error("ply\nformat utf8 1.0\n"), HasSubstr("a.ply:2: 'utf8' is not a format of PLY"));
   EXPECT_THAT(ply_error("ply\nformat ascii 1.0\nelement vertex -1\n"),
-              HasSubstr("a.ply:3: '-1' is no number of elements"));
+              HasSubstr("a.ply:3: '-1' is not a number of elements"));
   EXPECT_THAT(ply_error("ply\nproperty float x\n"), HasSubstr("a.ply:2: a property comes after"));
   EXPECT_THAT(ply_error("ply\nelement vertex 1\nproperty half x\n"),
-              HasSubstr("a.ply:3: 'half' is no type of PLY"));
+              HasSubstr("a.ply:3: 'half' is not a type of PLY"));
   EXPECT_THAT(ply_error("ply\nelement face 1\nproperty list float int vertex_indices\n"),
-              HasSubstr("a.ply:3: 'float' is no type of a list's length"));
+              HasSubstr("a.ply:3: 'float' is not a type of a list's length"));
   EXPECT_THAT(ply_error("ply\nelement vertex 1\nproperty float\n"),
               HasSubstr("a.ply:3: this property has no name"));
-  EXPECT_THAT(ply_error("ply\nwobble\n"), HasSubstr("a.ply:2: 'wobble' is no word of a PLY header"));
+  EXPECT_THAT(ply_error("ply\nwobble\n"), HasSubstr("a.ply:2: 'wobble' is not a word of a PLY header"));
   EXPECT_THAT(
       ply_error(
           "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n"),
@@ -126,8 +126,8 @@ TEST(ReadPly, HeaderErrorsNameTheLine) {
 
 TEST(ReadPly, BodyErrorsNameThePlace) {
   const std::string text = header("ascii");
-  EXPECT_THAT(ply_error(text + "0 255 0 0\n1 0 zero 0\n"), HasSubstr("a.ply:20: 'zero' is no number"));
-  EXPECT_THAT(ply_error(text + "0 255 0 0\n1 0.5 0 0\n"), HasSubstr("a.ply:20: '0.5' is no whole number"));
+  EXPECT_THAT(ply_error(text + "0 255 0 0\n1 0 zero 0\n"), HasSubstr("a.ply:20: 'zero' is not a number"));
+  EXPECT_THAT(ply_error(text + "0 255 0 0\n1 0.5 0 0\n"), HasSubstr("a.ply:20: '0.5' is not an integer"));
   EXPECT_THAT(ply_error(text + "0 255 0 0\n1 0 0 0\n"), HasSubstr("the file ends before its last element"));
   std::string wrong = text + ascii_body;
   wrong.replace(wrong.find("4 0 1 2 3"), 9, "4 0 1 2 9");

@@ -40,7 +40,7 @@ TEST(ReadStl, BinaryIsReadByItsSize) {
   EXPECT_THAT(read->notes, IsEmpty());
   const auto longer = parse_stl(test::as_stl(sphere) + "123", "a.stl");
   ASSERT_TRUE(longer.ok());
-  EXPECT_THAT(longer->notes, ElementsAre("byte 4084: 3 bytes after the last triangle were passed over"));
+  EXPECT_THAT(longer->notes, ElementsAre("byte 4084: ignored 3 bytes after the last triangle"));
 }
 
 TEST(ReadStl, AsciiIsReadWhateverItsCapitalsAndSolids) {
@@ -62,7 +62,7 @@ TEST(ReadStl, TakesAByteOrderMarkAndEveryKindOfLineEnd) {
     ASSERT_TRUE(read.ok()) << read.error().what;
     EXPECT_THAT(read->mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
   }
-  EXPECT_THAT(stl_error(mac + "hello"), HasSubstr("a.stl:10: 'hello' is no word of STL"));
+  EXPECT_THAT(stl_error(mac + "hello"), HasSubstr("a.stl:10: 'hello' is not a word of STL"));
 }
 
 TEST(ReadStl, CountsTrianglesWhereTheHeaderNamesNone) {
@@ -71,7 +71,7 @@ TEST(ReadStl, CountsTrianglesWhereTheHeaderNamesNone) {
   const auto read = parse_stl(bytes, "a.stl");
   ASSERT_TRUE(read.ok()) << read.error().what;
   EXPECT_EQ(read->mesh.triangles.size(), 12u);
-  EXPECT_THAT(read->notes, ElementsAre("byte 80: 0 triangles are named, and the file has 12"));
+  EXPECT_THAT(read->notes, ElementsAre("byte 80: the header declares 0 triangles, and the file has 12"));
 }
 
 TEST(ReadMesh, SaysThatAFileIsUtf16) {
@@ -89,8 +89,8 @@ TEST(ReadMesh, SaysThatAFileIsUtf16) {
 TEST(ReadStl, ErrorsNameThePlaceAndWhatHelps) {
   const std::string whole = test::as_stl(test::box_mesh({1, 1, 1}));
   EXPECT_THAT(stl_error(whole.substr(0, 300)),
-              HasSubstr("a.stl: byte 80: 12 triangles are promised, which takes 684 bytes, and the file has "
-                        "300: it is cut short"));
+              HasSubstr("a.stl: byte 80: the header declares 12 triangles (684 bytes), and the file has "
+                        "300 bytes. The file is truncated"));
   EXPECT_THAT(stl_error(whole.substr(0, 40)),
               HasSubstr("a.stl: byte 40: the file ends in its header of 84 bytes"));
   EXPECT_THAT(stl_error(""), HasSubstr("a.stl: byte 0"));
@@ -105,8 +105,8 @@ TEST(ReadStl, ErrorsNameThePlaceAndWhatHelps) {
   EXPECT_THAT(stl_error("solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
               HasSubstr("a.stl:6: this facet has 2 corners"));
   EXPECT_THAT(stl_error("solid\nfacet\nouter loop\nvertex 0 up 0\n"),
-              HasSubstr("a.stl:4: 'up' is no number"));
-  EXPECT_THAT(stl_error("solid\ntriangle 1 2 3\n"), HasSubstr("a.stl:2: 'triangle' is no word of STL"));
+              HasSubstr("a.stl:4: 'up' is not a number"));
+  EXPECT_THAT(stl_error("solid\ntriangle 1 2 3\n"), HasSubstr("a.stl:2: 'triangle' is not a word of STL"));
   EXPECT_THAT(stl_error("solid\nendsolid\n"), HasSubstr("no vertex and no face"));
 }
 

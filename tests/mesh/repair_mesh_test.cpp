@@ -76,8 +76,7 @@ TEST(RepairMesh, LeavesOutFacesThatAreNotFinite) {
   const RepairedMesh made = repair_mesh(mesh);
   EXPECT_EQ(made.repairs.not_finite, 3u);
   EXPECT_EQ(made.mesh, sphere());
-  EXPECT_THAT(sentences_of(made.repairs),
-              ElementsAre("left out 3 faces with a corner that is no finite number"));
+  EXPECT_THAT(sentences_of(made.repairs), ElementsAre("left out 3 faces with a corner that is not finite"));
 }
 
 TEST(RepairMesh, LeavesOutFacesWithoutAreaButKeepsWhatTheyConnect) {

@@ -175,7 +175,7 @@ TEST(Voxelise, HeightScalesAndUpTurns) {
   // Without a height its numbers are metres, which is told.
   const VoxelisedMesh large = voxelised(mesh, {.cells = 20});
   EXPECT_TRUE(large.report.odd_size);
-  EXPECT_THAT(sentences_of(large), Contains(HasSubstr("give a height in metres")));
+  EXPECT_THAT(sentences_of(large), Contains(HasSubstr("give a height in meters")));
 }
 
 TEST(Voxelise, PiecesAreKeptOrRefused) {
@@ -185,10 +185,10 @@ TEST(Voxelise, PiecesAreKeptOrRefused) {
   EXPECT_EQ(largest.grid.full_count(), largest.report.pieces[0]);
   EXPECT_EQ(all.grid.full_count(), largest.report.pieces[0] + largest.report.pieces[1]);
   EXPECT_THAT(sentences_of(largest), Contains(HasSubstr("kept the largest of 2 pieces")));
-  EXPECT_THAT(sentences_of(all), Contains(HasSubstr("2 pieces, which no face connects, move separately")));
+  EXPECT_THAT(sentences_of(all), Contains(HasSubstr("2 pieces, which share no face, move separately")));
   const auto refused = voxelise(two, {.cells = forty, .pieces = Pieces::refuse}, "two.stl");
   ASSERT_FALSE(refused.ok());
-  EXPECT_THAT(refused.error().what, HasSubstr("two.stl: the cells are 2 pieces"));
+  EXPECT_THAT(refused.error().what, HasSubstr("two.stl: the cells form 2 pieces"));
 }
 
 TEST(Voxelise, ThinWallsAreTold) {
@@ -222,9 +222,9 @@ TEST(Voxelise, HopelessMeshesAreRefusedWithTheirFigures) {
   };
   // Half a sphere without its base, and more than half of all faces missing.
   EXPECT_THAT(said(test::without_above(fine_sphere(), 0.0), forty),
-              HasSubstr("what is inside cannot be told"));
+              HasSubstr("inside and outside are ambiguous"));
   const std::string lost = said(test::without_share(fine_sphere(), 0.5, 1), forty);
-  EXPECT_THAT(lost, HasSubstr("bad.ply: what is inside cannot be told"));
+  EXPECT_THAT(lost, HasSubstr("bad.ply: inside and outside are ambiguous"));
   EXPECT_THAT(lost, HasSubstr("of 64000 cells"));
   EXPECT_THAT(lost, HasSubstr("Close the mesh's holes"));
   // A sheet encloses nothing.

@@ -106,12 +106,12 @@ TEST(ActuatorScene, RejectionsPointToTheKey) {
   EXPECT_THAT(rejection("amplitude = 0.2\nvolume-change = 0.1\n"),
               HasSubstr("scene.toml:16:1: an actuator has either"));
   EXPECT_THAT(rejection("signal = \"sine\"\ntable = [[0, 0], [1, 1]]\n"),
-              HasSubstr("scene.toml:16:1: 'actuator.table' is"));
+              HasSubstr("scene.toml:16:1: 'actuator.table' needs the signal"));
   EXPECT_THAT(rejection("table = [[0, 0], [2, 1], [1, 0]]\n"),
               StartsWith("scene.toml:15:26: 'actuator.table': times must"));
   EXPECT_THAT(rejection("phase = \"none.npy\"\n"), HasSubstr("'actuator.phase'"));
   EXPECT_THAT(rejection("select.box.min = [5, 5, 5]\nselect.box.max = [6, 6, 6]\n"),
-              HasSubstr("chooses no cell of worm"));
+              HasSubstr("selects no cell of worm"));
   EXPECT_THAT(rejection("phase.cells = \"1 1 1: 0\"\n"),
               HasSubstr("scene.toml:15:15: 'actuator.phase.cells': it has 1 × 1 × 1"));
   EXPECT_THAT(test::rejection(actuator + "[[actuator]]\nname = \"legs\"\n"), HasSubstr("is taken"));

@@ -51,7 +51,7 @@ TEST(Import, SaysWhatItDoesNotCarryAndPrintsAValidScene) {
            {12, "DrawGoalpost"}, {16, "DrawBackground"}, {20, "SimulationStart"}, {51, "NetColour"}}) {
     const std::string note = fmt::format("Configuration.txt:{}: *{} ", line, key);
     EXPECT_THAT(imported->notes, testing::Contains(HasSubstr(note)));
-    EXPECT_THAT(text, HasSubstr("# Not carried over: " + note));
+    EXPECT_THAT(text, HasSubstr("# Not translated: " + note));
   }
   EXPECT_EQ(imported->notes.size(), 4u);
   EXPECT_FALSE(imported->scene.view.axes);
@@ -94,9 +94,8 @@ TEST(Import, ReportsAllErrorsWithTheirLines) {
   for (const char* expected :
        {"c.txt:1: *DeltaT has no value", "c.txt:3: *IntegratorType must be 0 (Euler) or 1",
         "c.txt:4: \"stray\" is neither", "c.txt:6: *NumAtWidth: 'goal-net.particles' is out of range: 1",
-        "c.txt:8: *NumAtHeight must be a whole number",
-        "c.txt:10: *SpringCoef must be a number, not \"stiff\"",
-        "c.txt:12: *NetWidth: 'goal-net.size' is out of range", "c.txt:13: *SpringCoef is in line 9 already",
+        "c.txt:8: *NumAtHeight must be an integer", "c.txt:10: *SpringCoef must be a number, not \"stiff\"",
+        "c.txt:12: *NetWidth: 'goal-net.size' is out of range", "c.txt:13: *SpringCoef repeats line 9",
         "c.txt:15: *DamperCoef has no value"}) {
     EXPECT_THAT(imported.error().message(), HasSubstr(expected));
   }

@@ -85,10 +85,9 @@ TEST_F(InputFile, SaysWhereAndHowToMendIt) {
   EXPECT_THAT(refusal("[[input]]\nstep = 3\n"), HasSubstr("did you mean 'inputs'?"));
   EXPECT_THAT(refusal("[[inputs]]\n"), HasSubstr("needs 'step'"));
   EXPECT_THAT(refusal("[[inputs]]\nstep = 5\n[[inputs]]\nstep = 5\n"),
-              HasSubstr("larger than that before, 5"));
+              HasSubstr("must exceed that before, 5"));
   EXPECT_THAT(refusal("[[inputs]]\nstep = -1\n"), HasSubstr("0 or more"));
-  EXPECT_THAT(refusal("[[inputs]]\nstep = 0.5\n"),
-              HasSubstr("'step' must be a whole number, not a number with"));
+  EXPECT_THAT(refusal("[[inputs]]\nstep = 0.5\n"), HasSubstr("'step' must be an integer, not a number with"));
   EXPECT_THAT(refusal("inputs = 3\n"), HasSubstr("must be a list of tables"));
   EXPECT_THAT(refusal("timestep = 0\n"), HasSubstr("above 0"));
   const auto with = [](const std::string& line) { return "[[inputs]]\nstep = 1\n" + line + "\n"; };
@@ -111,7 +110,7 @@ TEST_F(InputFile, SaysWhereAndHowToMendIt) {
   EXPECT_THAT(refusal(with("pinned = [\"top\"]")), HasSubstr("write cube[0] or cloth[0], a dot"));
   EXPECT_THAT(refusal(with("pinned = [true]")),
               HasSubstr("a list of indices and names, not of true or false"));
-  EXPECT_THAT(refusal(with("released = [0]")), HasSubstr("particle 0 is free already"));
+  EXPECT_THAT(refusal(with("released = [0]")), HasSubstr("particle 0 is already free"));
   EXPECT_THAT(refusal(with("channels = [nan]")), HasSubstr("finite numbers"));
   EXPECT_THAT(refusal("[[inputs]\n"), HasSubstr("not valid TOML"));
 }

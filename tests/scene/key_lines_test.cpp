@@ -68,10 +68,10 @@ TEST(KeyLines, SayWhatIsWrong) {
       {"contact.friction=1 ", "allowed is a number"},
       {"simulation.gravity=[0, 1]", "three numbers"},
       {"simulation.integrator=midpoint", "allowed is"},
-      {"simulation.integrator=\"leapfrog\"", "does not know"},
+      {"simulation.integrator=\"leapfrog\"", "unknown value"},
       {"contact.spin=1", "true or false"},
       {"cube[2].particle-mass=1", "does not have"},
-      {"cube[0].particles-per-edge=2.5", "whole number"},
+      {"cube[0].particles-per-edge=2.5", "integer"},
       {"cube[0].pinned=[\"left\", 1000]", "is not in the cube"},
   };
   for (const auto& [line, sentence] : wrong) {

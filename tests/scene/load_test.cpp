@@ -295,9 +295,8 @@ TEST(Load, TellsACheckpointFromAScene) {
   const std::string path = dir.file("c.aspic");
   EXPECT_EQ(scene.error().message(),
             path + ": this is a checkpoint, not a scene. Read " + path + " with read_checkpoint().");
-  EXPECT_EQ(
-      worded(scene.error(), FrontEnd::command_line),
-      path + ": this is a checkpoint, not a scene. Continue its run by aspic run --resume " + path + ".");
+  EXPECT_EQ(worded(scene.error(), FrontEnd::command_line),
+            path + ": this is a checkpoint, not a scene. Continue its run: aspic run --resume " + path + ".");
 }
 
 TEST(Load, TellsInputsFromAScene) {
@@ -307,7 +306,7 @@ TEST(Load, TellsInputsFromAScene) {
   ASSERT_FALSE(scene.ok());
   EXPECT_EQ(worded(scene.error(), FrontEnd::command_line),
             dir.file("hands.toml") +
-                ": these are inputs of a run, not a scene. Give them to a scene: aspic run "
+                ": these are inputs of a run, not a scene. Replay them in a scene: aspic run "
                 "SCENE --replay " +
                 dir.file("hands.toml") + ".");
   EXPECT_TRUE(is_input_log("timestep = 1.0  # s\n"));
@@ -322,7 +321,7 @@ TEST(Load, NamesTheOptionThatAnArgumentIsOf) {
     const auto wrong = with_view(Scene{}, arguments, {.origin = origin});
     ASSERT_FALSE(wrong.ok());
     EXPECT_THAT(wrong.error().message(), HasSubstr("\n\n" + origin + (origin.empty() ? "" : " ") +
-                                                   "colour=stress: 'view.colour' does not know"));
+                                                   "colour=stress: 'view.colour' has the unknown value"));
     EXPECT_THAT(wrong.error().message(), testing::EndsWith("\n  colour=stress\n         ^"));
   }
 }

@@ -66,7 +66,7 @@ TEST(Materials, RemovedOnesLeaveTheirNumbers) {
   Scene scene = of_fat();
   const auto refused = remove_material(scene, 1);
   ASSERT_FALSE(refused.ok());
-  EXPECT_THAT(refused.error().message(), HasSubstr("cells '1' of voxels[1] are of it"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("cells '1' of voxels[1] use it"));
   EXPECT_EQ(scene.model.materials.size(), 2u);
   scene.model.voxels[1].layers = {{"222"}};
   const auto removed = remove_material(scene, 1);

@@ -122,12 +122,12 @@ TEST(MeshScene, ErrorsPointAtTheirPlace) {
       {fmt::format("mesh = \"{}\"\n", sheet), "scene.toml:3:8: ", "fills none of"},
       {"mesh = \"nowhere.obj\"\n", "scene.toml:3:8: ", "Cannot read nowhere.obj"},
       {"mesh = \"rabit\"\n", "scene.toml:3:8: ", "Cannot read rabit"},
-      {"mesh = \"rabbit\"\ncells = 999\n", "scene.toml:4:9: ", "allowed: a whole number, 1 … 256"},
+      {"mesh = \"rabbit\"\ncells = 999\n", "scene.toml:4:9: ", "allowed: an integer, 1 … 256"},
       {"mesh = \"rabbit\"\nup = \"x\"\n", "scene.toml:4:6: ", "allowed: \"y\" or \"z\""},
       {"mesh = \"rabbit\"\nlayers = [[\"1\"]]\n", "scene.toml:4:1: ", "'layers' follows from the mesh"},
       {"size = 0.1\nmesh = \"rabbit\"\n", "scene.toml:4:1: ", "'size' follows from the mesh"},
-      {"cells = 4\n", "scene.toml:3:9: ", "'cells' is for a mesh"},
-      {"skin = \"AAAA\"\n", "scene.toml:3:8: ", "it is no mesh"},
+      {"cells = 4\n", "scene.toml:3:9: ", "'cells' applies to a mesh"},
+      {"skin = \"AAAA\"\n", "scene.toml:3:8: ", "this skin is not one"},
   };
   for (const auto& [keys, place, message] : cases) {
     const std::string said = test::rejection(voxels_table + keys);

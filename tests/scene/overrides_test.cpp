@@ -198,8 +198,7 @@ TEST(Set, MaterialTakesThePlaceOfTheFilesSprings) {
 
 TEST(Set, SpringsTakeThePlaceOfAMaterialOnlyWhole) {
   const std::string text = "schema = 1\n[[cube]]\nmaterial = { density = 8.0 }\n";
-  EXPECT_THAT(test::rejection(text, {"cube[0].shear.stiffness=10"}),
-              HasSubstr("this cube is made of a material"));
+  EXPECT_THAT(test::rejection(text, {"cube[0].shear.stiffness=10"}), HasSubstr("this cube has a material"));
   const Scene s = test::parsed(
       text, {"cube[0].structural={stiffness=10,damping=1}", "cube[0].shear={stiffness=10,damping=1}",
              "cube[0].bending={stiffness=10,damping=1}", "cube[0].particle-mass=2"});
@@ -235,9 +234,9 @@ TEST(Set, PointsAtWhatIsWrongInAnArgument) {
       {"cube.shear.stiffness=10", 1, "did you mean 'cube[0].shear.stiffness'?"},
       {"cube[0].shear.stifness=10", 15, "did you mean 'stiffness'?"},
       {"cube[0].shear={stifness=1}", 16, "did you mean 'stiffness'?"},
-      {"cube[zero].edge-length=2", 6, "an index is a whole number"},
-      {"cube[-1].edge-length=2", 6, "an index is a whole number"},
-      {"cube[0]x.edge-length=2", 6, "an index is a whole number"},
+      {"cube[zero].edge-length=2", 6, "an index is an integer"},
+      {"cube[-1].edge-length=2", 6, "an index is an integer"},
+      {"cube[0]x.edge-length=2", 6, "an index is an integer"},
       {"simulation[0].timestep=2", 1, "takes no index"},
       {"simulation.gravity.y=2", 20, "is a value and has no keys"},
       {"simulation..timestep=2", 12, "a part of the key is missing"},
@@ -249,15 +248,15 @@ TEST(Set, PointsAtWhatIsWrongInAnArgument) {
       {"simulation.duration=4s", 21, "write the number alone, in s"},
       {"cube[0].edge-length=4m", 21, "write the number alone, in m"},
       {"contact.friction=30%", 18, "write 0.3 for 30%"},
-      {"cube[0].velocity=1,0,0", 18, "a list stands in brackets, [1,0,0]"},
-      {"simulation.gravity=0.5,-9.8", 20, "a list stands in brackets, [0.5,-9.8]"},
+      {"cube[0].velocity=1,0,0", 18, "a list needs brackets, [1,0,0]"},
+      {"simulation.gravity=0.5,-9.8", 20, "a list needs brackets, [0.5,-9.8]"},
       {"cube[0].particles-per-edge=1e1", 28, "not a number with a decimal point or an exponent"},
       {"simulation.gravity=-9.8", 20,
        "must be three numbers [x, y, z], each -10000 … 10000 m/s², not a number"},
       {"cube.0.shear.stiffness=10", 1, "did you mean 'cube[0].shear.stiffness'?"},
       {"cube[0].particles=20", 19, "did you mean 'particles-per-edge'?"},
       {"cube[0].particles-per-edge=[8,4,4]", 28, "did you mean 'particles'?"},
-      {"cube[0].particles=[8,4]", 19, "'cube.particles' must be three whole numbers [along x, y, z]"},
+      {"cube[0].particles=[8,4]", 19, "'cube.particles' must be three integers [along x, y, z]"},
       {"cube[0].particles=[8,1,4]", 22, "'cube.particles' is out of range: 1; allowed: "},
       {"cube[0].particles=[4096,4096,64]", 19, "1073741824 particles; allowed: 134217728"},
       {"simulation.integrator=rk4", 23, "did you mean 'runge-kutta-4'?"},

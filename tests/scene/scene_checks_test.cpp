@@ -180,7 +180,7 @@ TEST(WithOverrides, TreatsTheScenesValuesAsTheFiles) {
   EXPECT_TRUE(round->model.terrain[0].geometry.empty());
   const auto springs = with_overrides(scene, std::vector<std::string>{"cube[0].shear.stiffness=1"});
   ASSERT_FALSE(springs.ok());
-  EXPECT_THAT(springs.error().message(), StartsWith("cube[0].shear.stiffness=1: this cube is made of a "));
+  EXPECT_THAT(springs.error().message(), StartsWith("cube[0].shear.stiffness=1: this cube has a "));
 }
 
 TEST(WithOverrides, NamesAKeyThatNoArgumentWrote) {

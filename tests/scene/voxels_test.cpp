@@ -79,7 +79,7 @@ TEST(VoxelScene, ArgumentsNameElements) {
   EXPECT_THAT(test::rejection(worm, {"material[fet].density=800"}),
               HasSubstr("the scene has no material of that name; it has fat or muscle; did you mean 'fat'?"));
   EXPECT_THAT(test::rejection(worm + "[[cube]]\n", {"cube[fat].edge-length=1"}),
-              HasSubstr("an index is a whole number from 0 in brackets"));
+              HasSubstr("an index is an integer from 0 in brackets"));
 }
 
 TEST(VoxelScene, ArgumentsAddElements) {
@@ -129,9 +129,9 @@ TEST(VoxelScene, ErrorsPointAtTheirPlaceAndSayTheWayOut) {
        "scene.toml:6:12: ", "too long one way"},
       {worm + "[[voxels]]\nname = \"worm\"\n", "scene.toml:11:8: ", "'voxels.name' \"worm\" is taken"},
       {"schema = 1\n[[cloth]]\nthickness = 0.1\n",
-       "scene.toml:3:1: ", "'cloth.thickness' is that of a cloth with a"},
+       "scene.toml:3:1: ", "'cloth.thickness' applies to a cloth with a"},
       {worm + "material = \"fat\"\n",
-       "scene.toml:10:1: ", "either 'material', which all cells are of, or a 'palette'"},
+       "scene.toml:10:1: ", "either 'material', for all cells, or a 'palette'"},
       {"schema = 1\n[material]\nfat = 3\n[[cube]]\n", "scene.toml:3:7: ", "'material.fat' must be a table"}};
   for (const auto& [text, place, message] : cases) {
     const std::string refusal = test::rejection(text);
@@ -173,7 +173,7 @@ TEST(VoxelScene, TakesCellsOfAFileNextToIt) {
   ASSERT_FALSE(unknown.ok());
   EXPECT_THAT(unknown.error().what,
               HasSubstr("scene.toml:7:8: 'voxels.file' \"body.npy\": it has the number 7 at "
-                        "[0, 0, 1], which 'palette' does not name; add 7 = \"…\" to it"));
+                        "[0, 0, 1], which 'palette' does not name; add 7 = \"…\" to 'palette'"));
   write_npy(folder.path() / "body.npy", "(2,)", "\1\1");
   const auto flat = load_scene(file);
   ASSERT_FALSE(flat.ok());
