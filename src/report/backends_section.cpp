@@ -56,8 +56,8 @@ Result<Speed> measured(const SharedModel& model, const BackendRow& row, double s
 Result<Section> backends_section(const Study& study) {
   Section section{"backends", "Backends", {}, {}};
   section.paragraphs = {
-      "Every backend performs the same operations in the same order, so that in single precision their "
-      "states are equal to the last bit. They differ in speed alone."};
+      "All backends perform the same operations in the same order. In single precision their states have "
+      "identical bits, and only the speed differs."};
   std::vector<int> sizes = {0};
   if (!study.scene.model.cubes.empty()) {
     sizes = {4, 6, 10, 16};
@@ -119,9 +119,9 @@ Result<Section> backends_section(const Study& study) {
   if (figure.chart) figure.chart->panels[0].curves = std::move(curves);
   for (const std::string& why : missing) section.paragraphs.push_back(fmt::format("Not measured, {}", why));
   figure.caption = fmt::format(
-      "Speed by size and equality of bits on this machine: {} with that many particles per edge of its cubes "
-      "and its own integrator; each backend with as many threads as it takes by "
-      "itself. A software rasteriser's figures are no GPU's.",
+      "Speed by size and equality of bits on this machine: {} with these particles per edge of its cubes and "
+      "its own integrator; each backend with its default number of threads. Figures of a software rasterizer "
+      "do not apply to GPUs.",
       study.scene.name);
   figure.command = study.scene.model.cubes.empty()
                        ? fmt::format("aspic bench {} --backend cpu,reference,gpu", study.scene_words)

@@ -114,9 +114,9 @@ Result<Figure> restitution_figure(const Study& study) {
   if (!soft.points.empty()) curves.push_back(std::move(soft));
   figure.caption =
       "Restitution as set and as measured: the square root of the height regained over the height fallen. A "
-      "particle regains e² of the height under both models. The centre of mass of the scene's body regains "
-      "much less or more: its "
-      "dampers take most of the energy, and its springs give some of it back, whatever e is.";
+      "particle regains e² of the height under both models. The center of mass of the scene's body regains "
+      "much less or more: its dampers take most of the energy, and its springs return some of it, "
+      "independent of e.";
   figure.command = "aspic verify --only contact/restitution";
   return figure;
 }
@@ -155,11 +155,10 @@ Result<Figure> friction_figure(const Study& study) {
   for (std::size_t i = 0; i < values.size(); ++i)
     figure.table->rows.push_back({values[i], theory(values[i]), measured[i], measured[values.size() + i]});
   figure.caption =
-      "Friction as set and as measured: the mean acceleration, between 1 s and 3 s after it was let go, of a "
-      "5³ cube on a slope of 25°. Coulomb's friction is μN whatever the speed, and holds the cube where μ > "
-      "tan θ = 0.466. "
-      "The course's formula, −μN·v, acts on particles within ε of the surface that move across it at less "
-      "than ε; those of a cube hop more than that, and it slides as on ice.";
+      "Friction as set and as measured: the mean acceleration of a 5³ cube on a slope of 25°, between 1 s "
+      "and 3 s after its release. Coulomb's friction is μN at any speed, and holds the cube where μ > tan θ "
+      "= 0.466. The course's formula, −μN·v, acts on particles within ε of the surface that move across it "
+      "at less than ε. Particles of a cube hop more than that, and it slides as on ice.";
   figure.command = "aspic verify --only contact/cone";
   return figure;
 }
@@ -225,7 +224,7 @@ Result<Figure> drop_figure(const Study& study) {
   figure.chart->columns = 2;
   figure.chart->panel_width = 420;
   figure.chart->panel_height = 230;
-  Panel height{"Height of the centre of mass", {"time [s]"}, {"height [m]"}, {}};
+  Panel height{"Height of the center of mass", {"time [s]"}, {"height [m]"}, {}};
   Panel lowest{"Lowest particle", {"time [s]"}, {"height [m]"}, {}};
   double bottom = 0.0, first_bottom = 0.0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -245,9 +244,9 @@ Result<Figure> drop_figure(const Study& study) {
   lowest.y.to = first_bottom + std::max(0.1, first_bottom - bottom);
   figure.chart->panels = {std::move(height), std::move(lowest)};
   figure.caption =
-      "The scene under both contact models. Under Coulomb's rule what has come to rest stays on the surface. "
-      "The course's contact force cancels the load only at the moment it is evaluated, so that with methods "
-      "of several evaluations a step the body sinks slowly.";
+      "The scene under both contact models. Under Coulomb's rule a body at rest stays on the surface. The "
+      "course's contact force cancels the load only at the moment of evaluation. With several evaluations "
+      "per step the body sinks slowly.";
   figure.command = fmt::format(
       "aspic sweep {} --vary contact.model=coulomb,course --vary integrator={} --duration {} --out "
       "contact.csv",

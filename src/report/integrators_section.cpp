@@ -196,14 +196,14 @@ Result<Figure> work_figure(const Study& study, Smooth smooth) {
   figure.id = "work-precision";
   figure.chart.emplace();
   figure.chart->panels.push_back({"",
-                                  {"processor seconds per simulated second", Scale::log},
+                                  {"CPU seconds per simulated second", Scale::log},
                                   {"error [m], root mean square", Scale::log},
                                   {}});
   figure.table = Table{{{"method"},
                         {"force evaluations a step"},
                         {"equal error [m]"},
                         {"with a step of [s]"},
-                        {"processor seconds per simulated second"}},
+                        {"CPU seconds per simulated second"}},
                        {}};
   for (std::size_t m = 0; m < methods; ++m) {
     if (curves[m].empty()) continue;
@@ -218,11 +218,11 @@ Result<Figure> work_figure(const Study& study, Smooth smooth) {
   }
   figure.caption =
       "Work and precision. The scene's bodies, cubes with at most 5 particles per edge, alone in space, "
-      "smoothly deformed and moving; reference solver in double "
-      "precision, one thread; the error is that of the positions against Runge–Kutta 4 at a much smaller "
-      "step. From left to right each step is half the one before; the first is "
-      "0.9 of the largest stable one. Lower and further left is better. In the table: the cost at equal "
-      "error, or that of the largest stable step where it is more accurate.";
+      "smoothly deformed and moving. The reference solver computes in double precision with one thread. The "
+      "error is that of the positions against Runge–Kutta 4 at a much smaller step. From left to right each "
+      "step is half the one before; the first is 0.9 of the largest stable one. Lower and further left is "
+      "better. In the table: the cost at equal error, or that of the largest stable step where it is more "
+      "accurate.";
   figure.command = study.command("integrators");
   return figure;
 }
@@ -294,11 +294,9 @@ Status add_drops(const Study& study, Section& section) {
   energy.id = "energy-drop";
   energy.chart.emplace();
   energy.chart->panels.push_back({"", {"time [s]"}, {"total energy [J]"}, {}});
-  energy.table = Table{{{"method"},
-                        {"time step [s]"},
-                        {"processor microseconds a step"},
-                        {"processor seconds per simulated second"}},
-                       {}};
+  energy.table = Table{
+      {{"method"}, {"time step [s]"}, {"CPU microseconds per step"}, {"CPU seconds per simulated second"}},
+      {}};
   strip.id = "drop";
   strip.strip.emplace();
   for (const double t : times) strip.strip->columns.push_back(fmt::format("t = {} s", rounded(t, 3)));
@@ -325,7 +323,7 @@ Status add_drops(const Study& study, Section& section) {
       study.scene.name);
   energy.command =
       fmt::format("aspic run {} --set simulation.integrator=METHOD --series energy.csv", study.scene_words);
-  strip.caption = "The same drop with every method: contact, deepest squash, and after.";
+  strip.caption = "The same drop with every method: contact, largest compression, and after.";
   strip.command =
       fmt::format("aspic run {} --set simulation.integrator=METHOD --frames DIR", study.scene_words);
   section.figures.push_back(std::move(energy));
@@ -354,8 +352,7 @@ Result<Section> integrators_section(const Study& study) {
     section.figures.push_back(std::move(energy));
   } else {
     section.paragraphs.emplace_back(
-        "The scene has no springs, so that no step is unstable and nothing vibrates; what those figures "
-        "would show is left out.");
+        "The scene has no springs, so the figures of stability and vibration are left out.");
   }
   ASPIC_CHECK(add_drops(study, section));
   return section;

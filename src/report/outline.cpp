@@ -61,7 +61,7 @@ Result<Figure> scene_figure(const Study& study, const Model& model) {
                                 fmt::format("h = {} s", rounded(model.simulation.timestep)),
                                 std::move(jpegs)});
   figure.caption = "The scene with its own method.";
-  figure.command = fmt::format("aspic run {} --video film.mp4", study.scene_words);
+  figure.command = fmt::format("aspic run {} --video scene.mp4", study.scene_words);
   return figure;
 }
 
@@ -130,11 +130,10 @@ Figure formulas_figure(const Model& model) {
   for (const Integrator integrator : all_integrators)
     rows.push_back({std::string(row_of(integrator).title), std::string(row_of(integrator).formula)});
   figure.caption =
-      "Formulas. x, v, a: place, velocity and acceleration at the start of a step of h, with a dash at its "
-      "end; L, r: "
-      "length and rest length of a spring; k, c: stiffness and damping; d, n: distance from the ground and "
-      "its normal; vₜ: "
-      "what of v is along the ground; e, μ: restitution and friction; f: force on a particle.";
+      "Formulas. x, v, a: position, velocity and acceleration at the start of a step of h, with a dash at "
+      "its end; L, r: length and rest length of a spring; k, c: stiffness and damping; d, n: distance from "
+      "the ground and its normal; vₜ: the part of v along the ground; e, μ: restitution and friction; f: "
+      "force on a particle.";
   return figure;
 }
 
@@ -162,16 +161,15 @@ Figure functions_figure(const Scene& scene) {
                   nets && !cubes ? "`CMassSpringSystem::ExplicitEuler`, `RungeKutta`" : "`integrate`",
                   "`src/cpu_reference/integrators.h`", "`order`"});
   figure.caption =
-      "Functions of the course's framework, and where aspic does the same; `aspic verify --only CHECK` "
-      "measures it. All rows of "
-      "the slides are in docs/course.md.";
+      "Functions of the course's framework and of aspic; `aspic verify --only CHECK` measures them. All rows "
+      "of the slides are in docs/course.md.";
   return figure;
 }
 
 std::string question_of(std::string_view id) {
   constexpr std::pair<std::string_view, std::string_view> questions[] = {
-      {"parameter-k", "Stiffness: what changes in height, squash and time to rest, and why?"},
-      {"parameter-c", "Damping: what do little and much of it do?"},
+      {"parameter-k", "Stiffness: what changes in height, compression and time to rest, and why?"},
+      {"parameter-c", "Damping: which effect do small and large values have?"},
       {"parameter-e", "Restitution: why does the body not rise to e² of its fall?"},
       {"parameter-mu", "Friction: when does the body stop, stick or topple?"},
       {"parameter-h",
@@ -202,7 +200,8 @@ Result<std::vector<Section>> course_outline(const Study& study, std::vector<Sect
       fmt::format("The scene `{}` has {}. It is simulated for {} s in steps of {} s with {}.",
                   study.scene.name, counts_text(model), rounded(model.simulation.duration),
                   rounded(model.simulation.timestep), row_of(model.simulation.integrator).title)};
-  introduction.gaps = {"What is simulated here, what for, and what should the reader know at the end?"};
+  introduction.gaps = {
+      "Name the subject and purpose of the simulation. Which insight should the reader gain?"};
   Section fundamentals{"fundamentals", "2 Fundamentals", {}, {}};
   fundamentals.paragraphs = {
       "Mass sits in particles. Springs and dampers act along the line between two of them, and terrain on "
@@ -238,7 +237,7 @@ Result<std::vector<Section>> course_outline(const Study& study, std::vector<Sect
                 [](const Figure& figure) { return figure.id.starts_with("parameter-n"); });
   ask(parameters);
   Section conclusion{"conclusion", "5 Conclusion", {}, {}};
-  conclusion.gaps = {"What did you find, what surprised you, and what would you do next?"};
+  conclusion.gaps = {"Summarize your results. Which of them surprised you, and which steps would be next?"};
   std::vector<Section> chapters;
   for (Section* chapter :
        {&introduction, &fundamentals, &implementation, &results, &integrators, &parameters, &conclusion})

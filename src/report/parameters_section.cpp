@@ -42,14 +42,14 @@ constexpr Varied varied[] = {
      [](double, double stable) {
        return std::vector<double>{stable / 16, stable / 4, 0.7 * stable, 0.95 * stable, 1.15 * stable};
      },
-     "The step hardly matters as long as it is small enough; where springs limit it, the last value is above "
-     "the largest stable one."},
+     "The step hardly matters if it is small enough; where springs limit it, the last value is above the "
+     "largest stable one."},
     {"n",
      [](double, double) {
        return std::vector<double>{4, 6, 8, 10, 12};
      },
-     "Without a material every particle has the same mass and every spring the same stiffness, so that a "
-     "finer cube is heavier and softer: another body, not a better picture of the same one."},
+     "Without a material every particle has the same mass and every spring the same stiffness: a finer cube "
+     "is heavier and softer, and thus another body."},
 };
 
 /// The number with so few digits.
@@ -200,7 +200,7 @@ Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& 
   chart.columns = 4;
   chart.panel_width = 210;
   chart.panel_height = 170;
-  Panel heights{"Height of the centre of mass", {"time [s]"}, {"height [m]"}, {}};
+  Panel heights{"Height of the center of mass", {"time [s]"}, {"height [m]"}, {}};
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (!results[i].summary) continue;
     heights.curves.push_back(course_curve(
@@ -208,7 +208,7 @@ Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& 
         [](const CourseSample& s) { return s.height; }, Palette::sequence, i));
   }
   chart.panels.push_back(std::move(heights));
-  chart.panels.push_back(measure_panel(key, "Deepest squash", "share of height", words, results,
+  chart.panels.push_back(measure_panel(key, "Largest compression", "share of height", words, results,
                                        [](const CourseSummary& s) { return s.squash; }));
   chart.panels.push_back(
       measure_panel(key, "Time to rest", "time [s]", words, results,
@@ -218,7 +218,7 @@ Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& 
   figure.table =
       Table{{{key.unit.empty() ? std::string(key.title) : fmt::format("{} [{}]", key.title, key.unit)},
              {"outcome"},
-             {"deepest squash"},
+             {"largest compression"},
              {"at [s]"},
              {"at rest from [s]"},
              {"sliding distance [m]"},
@@ -261,8 +261,8 @@ Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& 
   pictures.strip = std::move(strip);
   pictures.caption = fmt::format(
       "{}: the same runs{}. The camera follows the body sideways.", title,
-      lands ? fmt::format(" at the moments of {} = {}: deepest squash, highest point after it, end", key.name,
-                          words[middle])
+      lands ? fmt::format(" at the moments of {} = {}: largest compression, highest point after it, end",
+                          key.name, words[middle])
             : "");
   pictures.command = fmt::format("aspic run {} --variant {}=VALUE --frames DIR", words_of_scene, key.name);
   figures.push_back(std::move(pictures));
@@ -275,9 +275,9 @@ Result<Section> parameters_section(const Study& study) {
   ASPIC_TRY(const Thrown base, thrown(study));
   Section section{"parameters", "Parameters", {}, {}};
   section.paragraphs = {
-      fmt::format("Each figure varies one parameter of {} and leaves the others alone{}. A run takes {} s; "
-                  "all runs of a figure have one time step, which is stable for all of them. Where the time "
-                  "to rest has no mark, something still moved at the end.",
+      fmt::format("Each figure varies one parameter of {} and keeps the others{}. A run takes {} s; all runs "
+                  "of a figure have one time step, which is stable for all of them. Where the time to rest "
+                  "has no mark, the body still moved at the end.",
                   study.scene.name,
                   base.assignments.empty()
                       ? ""

@@ -55,7 +55,7 @@ std::string print_pdf(const std::string& html_file, const std::string& pdf_file)
     if (child->finish().ok() && fs::exists(pdf, failed)) return "";
     reason = fmt::format("{} did not make one.", converter.program);
   }
-  return reason.empty() ? "none of chromium, weasyprint and wkhtmltopdf is installed." : reason;
+  return reason.empty() ? "install chromium, weasyprint or wkhtmltopdf." : reason;
 }
 
 std::optional<std::size_t> pages_of_pdf(std::string_view bytes) {

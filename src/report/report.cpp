@@ -35,7 +35,7 @@ constexpr SectionRow section_table[] = {
 Status check_directory(const ReportPlan& plan) {
   std::error_code failed;
   if (fs::exists(plan.out, failed) && !fs::is_directory(plan.out, failed))
-    return fail(ErrorCode::io, "{} is a file, and a report is a directory; give another --out.",
+    return fail(ErrorCode::io, "{} is a file, and a report needs a directory; give another --out.",
                 printable_line(plan.out));
   for (const char* const part : {"", "data", "figures"}) {
     const fs::path directory = fs::path(plan.out) / part;
@@ -91,18 +91,16 @@ Result<Page> make_page(const ReportPlan& plan, const Study& study, const std::ve
                     "again and the file with its numbers.",
                     ASPIC_VERSION)
               : fmt::format(
-                    "What the choice of integrator, time step and parameters does to the scene `{}`, "
-                    "measured on this "
+                    "Effects of the integrator, time step and parameters on the scene `{}`, measured on this "
                     "machine by aspic {}. Every figure names the command that measures it again and the file "
-                    "with "
-                    "its numbers.",
+                    "with its numbers.",
                     study.scene.name, ASPIC_VERSION);
   if (plan.coarser)
     page.lead += fmt::format(
-        " Its cubes are studied with {} particles per edge, so that hundreds of runs take a minute; "
-        "--thorough leaves them as they are.",
+        " The report uses {} particles per edge, so that hundreds of runs take a minute; --thorough keeps "
+        "the scene's own.",
         most_per_edge);
-  if (!study.studio) page.lead += fmt::format(" There are no rendered pictures: {}", study.no_studio);
+  if (!study.studio) page.lead += fmt::format(" There are no images: {}", study.no_studio);
   const std::time_t now = std::time(nullptr);
   {
     ProgressBar bar(rows.size(), "section");
@@ -129,7 +127,7 @@ Result<Page> make_page(const ReportPlan& plan, const Study& study, const std::ve
   ASPIC_TRY(const unsigned processors, parallel::available_threads());
   page.colophon = {
       {"machine",
-       fmt::format("{}, {} processors, {}", processor_name().empty() ? "unknown processor" : processor_name(),
+       fmt::format("{}, {} CPU cores, {}", processor_name().empty() ? "unknown CPU" : processor_name(),
                    processors, human_bytes(memory_bytes()))},
       {"driver", study.studio ? fmt::format("{}, OpenGL {}", study.studio->device().renderer,
                                             study.studio->device().version)
@@ -158,7 +156,7 @@ Result<const OutlineRow*> chosen_outline(const ReportPlan& plan) {
   std::vector<std::string_view> names;
   for (const OutlineRow& row : outlines()) names.push_back(row.name);
   return Error{ErrorCode::usage,
-               fmt::format("--outline does not know \"{}\"; allowed: {}.", printable_line(plan.outline),
+               fmt::format("unknown --outline \"{}\"; allowed: {}.", printable_line(plan.outline),
                            diagnostics::list_text(names, false))};
 }
 
@@ -174,8 +172,8 @@ Result<std::vector<const SectionRow*>> chosen_sections(const ReportPlan& plan, c
   }
   for (const std::string& name : plan.only) {
     if (std::ranges::find(names, name) == names.end())
-      return Error{ErrorCode::usage, fmt::format("--only does not know \"{}\"; allowed: {}.",
-                                                 printable_line(name), diagnostics::list_text(names, false))};
+      return Error{ErrorCode::usage, fmt::format("unknown --only \"{}\"; allowed: {}.", printable_line(name),
+                                                 diagnostics::list_text(names, false))};
   }
   return rows;
 }

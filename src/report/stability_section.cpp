@@ -159,11 +159,10 @@ Result<Section> stability_section(const Study& study) {
     return section;
   }
   section.paragraphs = {
-      "An explicit method multiplies each mode of vibration by a factor in every step. Where the step is too "
-      "large, that factor exceeds 1 for the "
-      "stiffest mode, and the body explodes. Damping first widens and then narrows the stable range: "
-      "strongly damped springs are stiff in their velocities. "
-      "Implicit Euler, solved in full, has no limit; its cost is elsewhere."};
+      "An explicit method multiplies each mode of vibration by a factor in every step. If the step is too "
+      "large, that factor exceeds 1 for the stiffest mode, and the motion diverges. Damping first widens and "
+      "then narrows the stable range: strongly damped springs are stiff in their velocities. Implicit Euler, "
+      "solved in full, has no limit, but each step costs more."};
   const ProbeStart start = probe_start(model);
   for (const Constant& constant : constants) {
     ASPIC_TRY(auto figure, map_figure(study, model, start, constant));

@@ -113,7 +113,7 @@ class Worker {
     const std::string said = child_->last_lines(3);
     child_.reset();
     if (ended_) return {};
-    return fail(ErrorCode::io, "a process for the runs cannot be started: {}",
+    return fail(ErrorCode::io, "cannot start a process for the runs: {}",
                 said.empty() ? "it ended at once." : said);
   }
 

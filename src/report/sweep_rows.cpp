@@ -173,7 +173,7 @@ Status SweepJournal::read(const std::string& owner, const Grid& grid) {
   struct stat present = {};
   if (::fstat(descriptor_, &present) != 0) return file_error("read", path_, errno);
   if (!S_ISREG(present.st_mode))
-    return fail(ErrorCode::io, "{}, where finished rows are kept, is a device or a pipe; give another --out.",
+    return fail(ErrorCode::io, "{} stores finished rows, but is a device or a pipe; give another --out.",
                 printable_line(path_));
   const std::string first = fmt::format("{}{}\n", mark, printable_line(owner));
   Lines lines(descriptor_, path_);
