@@ -22,15 +22,14 @@ std::string stability_figure(const StabilityLimit& limit) {
 std::string stability_sentence(Integrator integrator, const StabilityLimit& limit) {
   if (!limit.step) {
     return fmt::format(
-        "no step is {}stable for {}, under which undamped springs gain energy at any step; add damping, or "
-        "use symplectic-euler or runge-kutta-4",
+        "no step is {}stable for {}: undamped springs gain energy at any step. Add damping, or use "
+        "symplectic-euler or runge-kutta-4",
         limit.exact ? "" : "certainly ", name_of(integrator));
   }
   if (std::isinf(*limit.step)) return fmt::format("nothing limits the step of {}", name_of(integrator));
   if (*limit.step == 0.0) {
     return fmt::format(
-        "no step is certainly stable for {}: the springs are stiffer for their masses than double precision "
-        "can express",
+        "no step is certainly stable for {}: the springs are too stiff for their masses in double precision",
         name_of(integrator));
   }
   return fmt::format("the largest stable one for {} is {}{}", name_of(integrator),

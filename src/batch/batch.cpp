@@ -71,8 +71,7 @@ Result<Batch> Batch::create(std::vector<SharedModel> models, const BatchOptions&
   if (null != models.end())
     return fail(ErrorCode::usage, "the model of instance {} is null", null - models.begin());
   if (options.threads > most_threads)
-    return fail(ErrorCode::usage, "a batch computes on 1 to {} threads, not on {}", most_threads,
-                options.threads);
+    return fail(ErrorCode::usage, "a batch uses 1 to {} threads, not {}", most_threads, options.threads);
   ASPIC_TRY(const unsigned available, parallel::available_threads());
   const unsigned threads = options.threads > 0 ? options.threads : available;
   try {
@@ -84,7 +83,7 @@ Result<Batch> Batch::create(std::vector<SharedModel> models, const BatchOptions&
     parts->shared_bytes = plan.shared_bytes;
     return Batch(std::move(parts));
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::scene_rejected, "no memory left for a batch of {} instances: use fewer",
+    return fail(ErrorCode::scene_rejected, "not enough memory for a batch of {} instances: use fewer",
                 models.size());
   }
 }
@@ -210,7 +209,7 @@ Status Batch::set_constants(std::size_t instance, SharedModel model) {
   try {
     return parts_->move_out(instance, std::move(model));
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::scene_rejected, "no memory left for a solver of instance {}", instance);
+    return fail(ErrorCode::scene_rejected, "not enough memory for a solver of instance {}", instance);
   }
 }
 

@@ -78,8 +78,8 @@ Result<Recording> Recording::plan(const std::vector<SharedModel>& models, double
   }
   const auto no_memory = [&] {
     return fail(ErrorCode::scene_rejected,
-                "no memory left for the record of {} instances every {} s: record less often", models.size(),
-                interval);
+                "not enough memory for the record of {} instances every {} s: record less often",
+                models.size(), interval);
   };
   const double bytes = bytes_of(static_cast<double>(models.size()), 1.0 + rows_after(duration, interval),
                                 record.particles, quantities);

@@ -315,7 +315,7 @@ Result<std::unique_ptr<Solver>> make_cpu_solver(SharedModel model, const CpuOpti
         std::make_unique<parallel::CpuSolver>(model, std::move(workers), options.arithmetic));
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::scene_rejected,
-                "no memory left for the cpu solver of {} particles: use fewer particles-per-edge",
+                "not enough memory for the cpu solver of {} particles: use fewer particles-per-edge",
                 model->particle_count());
   }
 }

@@ -208,7 +208,7 @@ Result<std::unique_ptr<Solver>> make_reference_solver(SharedModel model, Precisi
   return unless_out_of_memory(made, [&]() -> Result<std::unique_ptr<Solver>> {
     return fail(
         ErrorCode::scene_rejected,
-        "no memory left for the reference solver of {} particles ({} bytes): use fewer particles-per-edge",
+        "not enough memory for the reference solver of {} particles ({} bytes): use fewer particles-per-edge",
         model->particle_count(), reference_bytes(*model, precision));
   });
 }

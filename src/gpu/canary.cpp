@@ -195,7 +195,7 @@ std::vector<std::string> Arithmetic::sentences() const {
   const std::string division = remedy(corrected && corrected->division_exact());
   constexpr std::string_view contracts =
       " The compiler contracts them despite `precise`: results will differ from the reference.";
-  const std::string_view differs = " Nothing can be done about that: results will differ from the reference.";
+  const std::string_view differs = " Aspic has no workaround: results will differ from the reference.";
   return {
       sentence(device.quotient, division),
       sentence(device.reciprocal, division),

@@ -52,10 +52,8 @@ Context::Context() : programs_(std::make_unique<ProgramCache>(*this, program_fol
 Result<std::shared_ptr<Context>> Context::adopt_current(Loader loader, WindowContext window) {
   const int version = gladLoadGL(loader);
   if (version == 0)
-    return Error{
-        ErrorCode::no_device,
-        "No OpenGL context is current on this thread, so there is none to use. Make the window's context "
-        "current first."};
+    return Error{ErrorCode::no_device,
+                 "This thread has no current OpenGL context. Make the window's context current first."};
   if (version < GLAD_MAKE_VERSION(4, 3))
     return advised(
         fail(ErrorCode::no_device,
@@ -168,11 +166,10 @@ void Context::forget_errors() {
 }
 
 Error Context::elsewhere_error() const {
-  return fail(
-      ErrorCode::no_device,
-      "The OpenGL context on {} is in use on another thread. Call a gpu solver, and whatever draws in its "
-      "context, on one thread.",
-      info_.renderer);
+  return fail(ErrorCode::no_device,
+              "The OpenGL context on {} is in use on another thread. Call a gpu solver, and all rendering in "
+              "its context, on one thread.",
+              info_.renderer);
 }
 
 Error Context::lost_error() const {
@@ -181,7 +178,7 @@ Error Context::lost_error() const {
         fail(ErrorCode::no_device, "The device {} has not answered for {} s.", info_.renderer, longest_wait),
         {advice("resume from the last checkpoint on another device"), use_backend("cpu")});
   return advised(
-      fail(ErrorCode::no_device, "The device {} was reset or lost, with everything it held.", info_.renderer),
+      fail(ErrorCode::no_device, "The device {} was reset or lost, with all its data.", info_.renderer),
       {advice("resume from the last checkpoint"), use_backend("cpu")});
 }
 

@@ -87,7 +87,7 @@ EglDevice describe_device(int index, EGLDeviceEXT device) {
   append("EGL_EXT_device_query_name", EGL_RENDERER_EXT);
   append("EGL_EXT_device_drm", EGL_DRM_DEVICE_FILE_EXT);
   append("EGL_EXT_device_drm_render_node", EGL_DRM_RENDER_NODE_FILE_EXT);
-  if (result.name.empty()) result.name = result.software ? "software rasteriser" : "unnamed";
+  if (result.name.empty()) result.name = result.software ? "software rasterizer" : "unnamed";
   return result;
 }
 
@@ -117,9 +117,8 @@ Result<Choice> choose(const ContextOptions& options) {
     choice.platform = wish;
   else
     return fail(ErrorCode::no_device,
-                "The environment variable ASPIC_EGL_DEVICE is \"{}\", which names no device. Allowed are "
-                "automatic, hardware, software, surfaceless, default, or an index of the list that "
-                "aspic info prints.",
+                "The environment variable ASPIC_EGL_DEVICE is \"{}\", which names no device. Allowed: "
+                "automatic, hardware, software, surfaceless, default, or an index from aspic info.",
                 printable_line(wish));
   return choice;
 }
@@ -134,8 +133,7 @@ Result<std::vector<EglCandidate>> candidates(const Choice& choice) {
     const auto i = static_cast<std::size_t>(choice.index);
     if (choice.index < 0 || i >= devices.size())
       return fail(ErrorCode::no_device,
-                  "EGL device {} was asked for, but EGL lists {} device{}. Choose an index of the list "
-                  "that aspic info prints.",
+                  "EGL device {} does not exist: EGL lists {} device{}. Choose an index from aspic info.",
                   choice.index, devices.size(), devices.size() == 1 ? "" : "s");
     add_device(i, DeviceChoice::automatic);
     return result;
@@ -239,8 +237,8 @@ Error forked_error() {
 }
 
 /// What is said of a device of the kind that was not asked for.
-constexpr std::string_view found_software = "a software rasteriser",
-                           found_hardware = "no software rasteriser";
+constexpr std::string_view found_software = "a software rasterizer",
+                           found_hardware = "no software rasterizer";
 
 /// What helps where no device fits: a variable that refuses what is there, and drivers that are missing.
 std::vector<Remedy> remedies(const Choice& choice, std::string_view tried) {
@@ -256,7 +254,7 @@ std::vector<Remedy> remedies(const Choice& choice, std::string_view tried) {
     all.push_back(advice("install the graphics card's OpenGL driver with its EGL part"));
   if (!found(found_software))
     all.push_back(
-        advice("install Mesa's software rasteriser (apt install libegl1 libegl-mesa0 libgl1-mesa-dri)"));
+        advice("install Mesa's software rasterizer (apt install libegl1 libegl-mesa0 libgl1-mesa-dri)"));
   all.push_back({RemedyKind::draw_nothing, {"cpu"}});
   return all;
 }
@@ -280,8 +278,8 @@ Result<std::shared_ptr<Context>> Context::create_on(const EglCandidate& candidat
                                                     const ContextOptions& options) {
   if (candidate.demand != DeviceChoice::hardware && vector_width_crashes())
     return unfit(
-        "may be a software rasteriser, which the environment variable LP_NATIVE_VECTOR_WIDTH makes crash "
-        "(allowed are 128, 256 and 512)");
+        "may be a software rasterizer, which crashes with this value of the environment variable "
+        "LP_NATIVE_VECTOR_WIDTH (allowed are 128, 256 and 512)");
   const EGLDisplay display = candidate.platform
                                  ? egl().GetPlatformDisplay(candidate.platform, candidate.native, nullptr)
                                  : egl().GetDisplay(EGL_DEFAULT_DISPLAY);
@@ -333,7 +331,7 @@ Result<std::shared_ptr<Context>> Context::create_headless(const ContextOptions& 
     tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, context.error().what);
   }
   return advised(
-      fail(ErrorCode::no_device, "No usable OpenGL 4.3 core device was found without a display. Tried: {}.",
+      fail(ErrorCode::no_device, "Aspic found no usable OpenGL 4.3 core device without a display. Tried: {}.",
            tried.empty() ? "nothing, EGL offers no platform" : tried),
       remedies(choice, tried));
 }
@@ -357,7 +355,7 @@ Status Context::enter(Place& before) {
       if (!egl().MakeCurrent(egl_.display, egl_.draw, egl_.read, egl_.context)) {
         const std::string error = egl_error();
         if (error != "EGL_BAD_ACCESS")
-          return fail(ErrorCode::no_device, "The OpenGL context on {} cannot be made current ({}).",
+          return fail(ErrorCode::no_device, "Cannot make the OpenGL context on {} current ({}).",
                       info_.renderer, error);
         return elsewhere_error();
       }
@@ -366,7 +364,7 @@ Status Context::enter(Place& before) {
     } else {
       if (window_.make_current) window_.make_current();
       if (!is_current())
-        return fail(ErrorCode::no_device, "The window's OpenGL context on {} cannot be made current.",
+        return fail(ErrorCode::no_device, "Cannot make the window's OpenGL context on {} current.",
                     info_.renderer);
     }
   }

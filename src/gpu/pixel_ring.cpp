@@ -46,7 +46,7 @@ void read_pixels(const Framebuffer& source, void* place) {
 }
 
 Error lost_picture(const Context& context) {
-  return fail(ErrorCode::no_device, "A picture could not be read back: the device {} was lost.",
+  return fail(ErrorCode::no_device, "Cannot read back an image: the device {} was lost.",
               context.info().renderer);
 }
 
@@ -89,10 +89,10 @@ Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
   for (Name& buffer : ring.buffers_) buffer = pixel_buffer(context, bytes);
   const GLenum error = glGetError();
   if (error != GL_NO_ERROR)
-    return fail(ErrorCode::scene_rejected,
-                "{} has no memory to read back pictures of {} x {} pixels (GL error 0x{:04x}). "
-                "Choose a smaller picture.",
-                context.info().renderer, width, height, error);
+    return fail(
+        ErrorCode::scene_rejected,
+        "{} has no memory to read back images of {} x {} pixels (GL error 0x{:04x}). Choose a smaller image.",
+        context.info().renderer, width, height, error);
   return ring;
 }
 

@@ -231,7 +231,7 @@ Status ProgramCache::finish(const SharedProgram& program) {
   if (program->finished()) return {};
   const auto found = std::ranges::find(pending_, program, &Pending::program);
   if (found == pending_.end())
-    return fail(ErrorCode::no_device, "The shader {} was refused before.", program->path());
+    return fail(ErrorCode::no_device, "The driver rejected the shader {} before.", program->path());
   const Pending pending = std::move(*found);
   pending_.erase(found);
   const bool compiles = program->compiles();

@@ -35,8 +35,8 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (settings.width < 1 || settings.height < 1 || settings.width > largest || settings.height > largest)
     return fail(ErrorCode::scene_rejected,
-                "The image \"{}\" of {} x {} pixels cannot be made: {} takes 1 to {} along each "
-                "side. Choose another picture size.",
+                "Cannot make the image \"{}\" of {} x {} pixels: {} takes 1 to {} along each side. Choose "
+                "another image size.",
                 name, settings.width, settings.height, context.info().renderer, largest);
   if (settings.samples > 1) {
     GLint most = 1;
@@ -71,8 +71,8 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
   if (error != GL_NO_ERROR && context.lost()) return context.lost_error();
   if (error != GL_NO_ERROR)
     return fail(ErrorCode::scene_rejected,
-                "{} has no memory for the image \"{}\" of {} x {} pixels with {} sample{} (GL "
-                "error 0x{:04x}). Choose a smaller picture.",
+                "{} has no memory for the image \"{}\" of {} x {} pixels with {} sample{} (GL error "
+                "0x{:04x}). Choose a smaller image.",
                 context.info().renderer, name, settings.width, settings.height, settings.samples,
                 settings.samples == 1 ? "" : "s", error);
   if (context.info().debug && !name.empty())

@@ -20,7 +20,7 @@ constexpr KernelRow ball_kernels[] = {{"compute/ball_fly.comp", "balls: flight a
                                       {"compute/ball_insert.comp", "balls: fill the grid"},
                                       {"compute/ball_find.comp", "balls: find contacts"},
                                       {"compute/ball_gather.comp", "balls: find blocks of particles"},
-                                      {"compute/ball_near.comp", "balls: look into blocks"},
+                                      {"compute/ball_near.comp", "balls: search blocks"},
                                       {"compute/ball_tally.comp", "balls: count contacts"},
                                       {"compute/ball_partials.comp", "balls: sum blocks"},
                                       {"compute/ball_exchange.comp", "balls: impulses on balls"},
@@ -169,8 +169,8 @@ Status BallPasses::grow() {
   }
   if (const Status made = allot(list_words, items); !made) {
     return advised(fail(made.error(),
-                        "The balls of the scene touch in more places than the device {} has room for: {} "
-                        "words of lists and {} blocks of 256 candidates are needed. {}",
+                        "The balls of the scene have more contacts than fit on the device {}: they need {} "
+                        "words of lists and {} blocks of 256 candidates. {}",
                         context_->info().renderer, list_words, items, made.error().what),
                    {advice("start fewer balls in one place"), use_backend("cpu")});
   }

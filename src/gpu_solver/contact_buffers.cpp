@@ -39,7 +39,7 @@ Status ContactBuffers::refresh(const Buffer& state) {
   listed_count_ = static_cast<std::uint32_t>(lists_->listed().size());
   place_count_ = static_cast<std::uint32_t>(lists_->places().size());
   ASPIC_CHECK(fit(candidate_groups_, "points near bodies", lists_->candidate_groups().size_bytes()));
-  ASPIC_CHECK(fit(words_, "lists of what is near", lists_->words().size_bytes()));
+  ASPIC_CHECK(fit(words_, "contact candidates", lists_->words().size_bytes()));
   ASPIC_CHECK(fit(listed_, "particles near bodies", lists_->listed().size_bytes()));
   ASPIC_CHECK(fit(places_, "places of surfaces", lists_->places().size_bytes()));
   ASPIC_CHECK(fit(records_, "contacts of bodies",

@@ -20,7 +20,7 @@ constexpr float nowhere_near = 3e38f;
 Status too_many(std::size_t count, std::string_view of, std::size_t most) {
   return advised(
       fail(ErrorCode::scene_rejected,
-           "bodies touch in too many places at once: {} {}, and the gpu backend takes {}.", count, of, most),
+           "bodies have too many contacts at once: {} {}, and the gpu backend takes {}.", count, of, most),
       {use_backend("cpu")});
 }
 

@@ -60,7 +60,7 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, SharedM
   const DeviceMethod& method = device_method(integrator, model.particle_count());
   if (method.takes(path)) return method.make(context, std::move(shared_model), options, path);
   return Error{ErrorCode::scene_rejected,
-               fmt::format("{} does not take the force path {}: use auto or {}", name_of(integrator),
+               fmt::format("{} does not support the force path {}: use auto or {}", name_of(integrator),
                            path.name, force_path_words(integrator, " or "))};
 }
 

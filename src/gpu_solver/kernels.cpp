@@ -66,11 +66,10 @@ Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, c
   const gl::DeviceLimits& limits = context.info().limits;
   const std::uint32_t most = std::min(limits.group_invocations, limits.group_size[0]);
   if (group_size < 1 || group_size > most)
-    return fail(ErrorCode::no_device,
-                "{} takes work groups of 1 to {} invocations, and the kernels were asked to have {}. Use "
-                "another group "
-                "size or another device.",
-                context.info().renderer, most, group_size);
+    return fail(
+        ErrorCode::no_device,
+        "{} takes work groups of 1 to {} invocations, not {}. Use another group size or another device.",
+        context.info().renderer, most, group_size);
   KernelOptions kernels{gl::ShaderLibrary(options.shader_directory), {}, {}, &batch};
   if (options.arithmetic) {
     kernels.arithmetic = *options.arithmetic;
@@ -96,12 +95,10 @@ std::vector<std::string> titles_of(std::span<const KernelRow> rows) {
 }
 
 Error idle_device(const gl::Context& context, const Model& model, std::uint64_t count) {
-  return advised(
-      fail(
-          ErrorCode::no_device,
-          "{} is no usable device: it does not carry out the kernels of {}, of which {} or more were queued.",
-          context.info().renderer, name_of(model.simulation.integrator), count),
-      {use_backend("cpu"), advice("use another device")});
+  return advised(fail(ErrorCode::no_device,
+                      "{} is not usable: it does not run the kernels of {}, of which {} or more were queued.",
+                      context.info().renderer, name_of(model.simulation.integrator), count),
+                 {use_backend("cpu"), advice("use another device")});
 }
 
 Status check_overrun(std::uint32_t overrun) {

@@ -96,7 +96,7 @@ Result<int> open_directly(const std::string& path, bool pipe) {
     if (descriptor >= 0) return descriptor;
     if (errno != EINTR && !(pipe && errno == ENXIO)) return file_error("write", path, errno);
     if (end_requested)
-      return fail(ErrorCode::interrupted, "interrupted before anything read the pipe {}.",
+      return fail(ErrorCode::interrupted, "interrupted before a reader opened the pipe {}.",
                   printable_line(path));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -224,8 +224,7 @@ Status AtomicFile::flush() {
       (void)::poll(&room, 1, 100);
       if (!patience.over()) continue;
       discard();
-      return fail(ErrorCode::io, "{} could not be completed: what reads it has stopped.",
-                  printable_line(path_));
+      return fail(ErrorCode::io, "Cannot complete {}: its reader has stopped.", printable_line(path_));
     } else if (errno != EINTR) {
       return give_up(errno);
     }

@@ -130,7 +130,7 @@ bool is_read(std::uint32_t version) {
 }
 
 constexpr std::string_view damaged =
-    "the checkpoint is damaged or cut short, and resuming from it would give a wrong result. Use another "
+    "the checkpoint is damaged or truncated, and resuming from it would give a wrong result. Use another "
     "copy, or run the scene again.";
 
 Error error_in(const std::string& name, std::string_view what) {
@@ -141,7 +141,7 @@ Error error_in(const std::string& name, std::string_view what) {
 Status check_magic(std::string_view bytes, const std::string& name) {
   if (bytes.empty()) return error_in(name, "the file is empty.");
   if (magic.starts_with(bytes.substr(0, magic.size()))) return {};
-  return advised(error_in(name, "this is not a checkpoint of aspic."), {{RemedyKind::give_checkpoint}});
+  return advised(error_in(name, "this is not a checkpoint of Aspic."), {{RemedyKind::give_checkpoint}});
 }
 
 /// Whether the state has the fields of this program, in its order. Error (io).
@@ -155,8 +155,8 @@ Status check_fields(Decoder& in, const std::string& name) {
                        carrier == static_cast<std::uint64_t>(state_fields[n].carrier) &&
                        components == StateField::components;
     if (!known) {
-      return error_in(name, fmt::format("the checkpoint holds a state with the field {}, which this program "
-                                        "does not know. Use the aspic that wrote it.",
+      return error_in(name, fmt::format("the checkpoint holds a state with the field {}, which this version "
+                                        "does not support. Use the version of aspic that wrote it.",
                                         excerpt(field, 40)));
     }
   }
@@ -178,10 +178,11 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
   const auto version = static_cast<std::uint32_t>(in.get(4));
   if (in.failed()) return error(damaged);
   if (!is_read(version)) {
-    return error(fmt::format("the checkpoint has format version {}, this program reads versions {} to {}. {}",
-                             version, oldest_checkpoint_version, checkpoint_version,
-                             version > checkpoint_version ? "Use the newer aspic that wrote it."
-                                                          : "Run the scene again to make a new one."));
+    return error(fmt::format(
+        "the checkpoint has format version {}, and this version of Aspic reads versions {} to {}. {}",
+        version, oldest_checkpoint_version, checkpoint_version,
+        version > checkpoint_version ? "Use the newer version that wrote it."
+                                     : "Run the scene again to make a new one."));
   }
   if (bytes.size() < 8) return error(damaged);
   Decoder tail(bytes.substr(bytes.size() - 8));
@@ -229,17 +230,16 @@ Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
 Status check_against_scene(const Checkpoint& checkpoint, const ModelSettings& scene,
                            const std::string& name) {
   if (checkpoint.timestep != scene.simulation.timestep) {
-    return error_in(name,
-                    fmt::format("the checkpoint was made at a time step of {} s, but the scene in it says {} "
-                                "s: it was tampered with. Use another copy, or run the scene again.",
-                                checkpoint.timestep, scene.simulation.timestep));
+    return error_in(name, fmt::format("the checkpoint has a time step of {} s, but the scene in it has {} s: "
+                                      "the file was changed. Use another copy, or run the scene again.",
+                                      checkpoint.timestep, scene.simulation.timestep));
   }
   const ModelCounts counts = predict_counts(scene);
   const State& state = checkpoint.state;
   if (counts.particles != state.position.size() || counts.balls != state.ball_position.size()) {
     return fail(ErrorCode::scene_rejected,
-                "{}: the checkpoint holds {} particles and {} balls, but the scene in it has {} and {}: it "
-                "was tampered with. Use another copy, or run the scene again.",
+                "{}: the checkpoint holds {} particles and {} balls, but the scene in it has {} and {}: the "
+                "file was changed. Use another copy, or run the scene again.",
                 printable_line(name), state.position.size(), state.ball_position.size(), counts.particles,
                 counts.balls);
   }
@@ -292,9 +292,8 @@ Result<Checkpoint> read_checkpoint(const std::string& path) {
   // Once as bytes, and as doubles whatever the precision in the file.
   const std::optional<std::uint64_t> memory = available_memory();
   if (memory && start.size > *memory / 3) {
-    return error_in(
-        path, fmt::format("the checkpoint has {} bytes, too many for the {} bytes of memory that are free.",
-                          start.size, *memory));
+    return error_in(path, fmt::format("the checkpoint has {} bytes, and only {} bytes of memory are free.",
+                                      start.size, *memory));
   }
   ASPIC_CHECK(check_size(path, start.size, before_texts));
   ASPIC_TRY(const auto bytes, read_regular_file(path, start.size));

@@ -105,7 +105,7 @@ void exchange_running(pid_t from, pid_t to) {
 }
 
 Error start_error(const std::string& program, int reason) {
-  return fail(ErrorCode::io, "{} cannot be started: {}.", program, std::strerror(reason));
+  return fail(ErrorCode::io, "Cannot start {}: {}.", program, std::strerror(reason));
 }
 
 /// Ends of the child's three streams; negative: /dev/null. `shared`: its shared_descriptor; negative: none.

@@ -27,8 +27,8 @@ struct Releaser {
 
 Error encode_error(std::string_view format, const PictureSize& size, const char* reason) {
   return fail(ErrorCode::io,
-              "A picture of {} x {} pixels could not be encoded as {} ({}): there may not be enough memory. "
-              "Choose a smaller picture.",
+              "Cannot encode an image of {} x {} pixels as {} ({}): there may not be enough memory. Choose a "
+              "smaller image.",
               size.width, size.height, format, reason);
 }
 

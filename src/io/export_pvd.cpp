@@ -35,8 +35,8 @@ Status check_name(const std::string& path) {
     const Utf8Character c = first_character(rest);
     if (!c.valid || (c.code < 0x20 && c.code != '\t' && c.code != '\n' && c.code != '\r'))
       return fail(ErrorCode::usage,
-                  "{}: a .pvd file holds the names of its files as XML, which has no control characters and "
-                  "only UTF-8; choose another name.",
+                  "{}: a .pvd file stores the names of its files as XML, which allows only UTF-8 without "
+                  "control characters; choose another name.",
                   printable_line(path));
     rest.remove_prefix(c.size);
   }

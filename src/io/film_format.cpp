@@ -27,8 +27,8 @@ constexpr FilmFormat table[] = {
     {"mp4", "MP4 (H.264)", ".mp4", 60.0, 1000.0, true, mp4, nullptr, 4, "ftyp"},
     {"webm", "WebM (VP9)", ".webm", 60.0, 1000.0, true, webm, nullptr, 0, "\x1a\x45\xdf\xa3"},
     {"gif", "GIF", ".gif", gif_fps, gif_fps, false, gif, nullptr, 0, "GIF8"},
-    {"png", "PNG pictures", ".png", 60.0, 1000.0, false, {}, encode_png},
-    {"jpeg", "JPEG pictures", ".jpg", 60.0, 1000.0, false, {}, encode_jpeg},
+    {"png", "PNG frames", ".png", 60.0, 1000.0, false, {}, encode_png},
+    {"jpeg", "JPEG frames", ".jpg", 60.0, 1000.0, false, {}, encode_jpeg},
 };
 
 }  // namespace
@@ -62,21 +62,20 @@ Result<const FilmFormat*> video_format_of(const std::string& path) {
   const FilmFormat* const format =
       dot == std::string::npos ? nullptr : find_film_format(std::string_view(path).substr(dot));
   if (format && !format->is_directory()) return format;
-  return fail(ErrorCode::usage, "the video's name {} must end in {}, which chooses its format.", path,
+  return fail(ErrorCode::usage, "the video's name {} must end in {}, which sets its format.", path,
               film_endings(false));
 }
 
 Status check_film(const FilmFormat& format, const PictureSize& size, double fps) {
   if (fps > format.most_fps) {
-    return advised(fail(ErrorCode::usage, "{} shows at most {} pictures per second, not {}.", format.label,
+    return advised(fail(ErrorCode::usage, "{} shows at most {} frames per second, not {}.", format.label,
                         format.most_fps, fps),
                    {{RemedyKind::lower_fps, {fmt::format("{}", format.most_fps)}}});
   }
   if (!format.even_sides || (size.width % 2 == 0 && size.height % 2 == 0)) return {};
   return advised(
       fail(ErrorCode::usage,
-           "a video stores colour for squares of 2 x 2 pixels, so that its width and height are even, not "
-           "{}x{}.",
+           "a video stores color for squares of 2 x 2 pixels: choose an even width and height, not {}x{}.",
            size.width, size.height),
       {{RemedyKind::picture_size,
         {fmt::format("{}", size.width + size.width % 2), fmt::format("{}", size.height + size.height % 2)}}});

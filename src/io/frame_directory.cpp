@@ -76,12 +76,11 @@ Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& direc
   struct stat present = {};
   if (::stat(directory.c_str(), &present) != 0) return file_error("read the directory", directory, errno);
   if (!S_ISDIR(present.st_mode))
-    return fail(ErrorCode::io, "{} is a file, but pictures need a directory. Choose another name.",
-                directory);
+    return fail(ErrorCode::io, "{} is a file, but frames need a directory. Choose another name.", directory);
   if (::access(directory.c_str(), W_OK | X_OK) != 0) return file_error("write into", directory, errno);
   ASPIC_TRY(const auto frames, frames_in(directory));
   if (!frames.empty() && overwrite == Overwrite::refuse)
-    return advised(fail(ErrorCode::io, "{} already contains pictures ({} and others) and was not changed.",
+    return advised(fail(ErrorCode::io, "{} already contains frames ({} and others) and was not changed.",
                         directory, std::min_element(frames.begin(), frames.end())->filename().string()),
                    {advice("choose another directory"), {RemedyKind::overwrite}});
   return std::unique_ptr<FrameSink>(std::make_unique<FrameDirectory>(directory, format, size, frames));

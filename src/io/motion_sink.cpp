@@ -38,11 +38,10 @@ Status MotionSink::take(const Sample& sample) {
     return {};
   }
   if (step < last_ || !is_even(step))
-    return fail(
-        ErrorCode::usage,
-        "{} takes samples that are equally far apart, and step {} is not as far from step {} as those "
-        "before it from one another.",
-        printable_line(path()), step, last_);
+    return fail(ErrorCode::usage,
+                "{} needs samples at equal intervals, and the interval from step {} to step {} differs from "
+                "those before it.",
+                printable_line(path()), step, last_);
   ASPIC_CHECK(check_finite(sample.state, path()));
   ASPIC_CHECK(add(sample));
   if (samples_ == 1) spacing_ = step - last_;

@@ -38,7 +38,7 @@ Status refuse_later_files(const std::string& pattern, std::uint64_t step) {
     const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), found);
     if (error != std::errc() || rest != digits.data() + digits.size() || found < step) continue;
     return advised(
-        fail(ErrorCode::io, "{} already exists, and the run may come to that step. It was not changed.",
+        fail(ErrorCode::io, "{} already exists, and the run may reach that step. It was not changed.",
              printable_line((directory / name).string())),
         {advice("choose another name"), {RemedyKind::overwrite}});
   }

@@ -22,8 +22,8 @@ namespace {
 
 constexpr int failed = static_cast<int>(ErrorCode::io);
 constexpr std::string_view no_memory =
-    "aspic: there is not enough memory. Use a smaller scene or picture, close other programs, or raise the "
-    "limit of this process (ulimit -v). Nothing incomplete was left behind.\n";
+    "aspic: there is not enough memory. Use a smaller scene or image, close other programs, or raise the "
+    "limit of this process (ulimit -v). No incomplete file was left behind.\n";
 
 /// Writes without allocating, also from a signal handler.
 void write_plainly(std::string_view text) {
@@ -46,12 +46,12 @@ void on_fatal_signal(int number) {
   end_child_processes();
   remove_temporary_files();
   std::array<char, 2> digits = {static_cast<char>('0' + number / 10), static_cast<char>('0' + number % 10)};
-  write_plainly("aspic: the program was ended by signal ");
+  write_plainly("aspic: the program ended by signal ");
   write_plainly({digits.data() + (number < 10 ? 1 : 0), number < 10 ? 1u : 2u});
   write_plainly(
-      ", in a driver or in aspic itself; its temporary files were removed. If little memory or stack is left "
-      "(ulimit -v, ulimit -s), allow more; if a graphics driver is at fault, the backend cpu needs "
-      "none.\n");
+      ", in a driver or in aspic itself; its temporary files were removed. If little memory or stack is "
+      "left, raise its limit (ulimit -v, ulimit -s). If a graphics driver is at fault, use the backend "
+      "cpu.\n");
   ::signal(number, SIG_DFL);
   ::raise(number);
 }
@@ -121,7 +121,7 @@ int run_program(const std::function<int()>& work) {
   } catch (const std::exception& exception) {
     try {
       print_message(
-          fmt::format("unexpected error: {}. Nothing incomplete was left behind.", exception.what()));
+          fmt::format("unexpected error: {}. No incomplete file was left behind.", exception.what()));
     } catch (const std::bad_alloc&) {
       write_plainly(no_memory);
     }

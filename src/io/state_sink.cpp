@@ -192,7 +192,7 @@ Status check_state_name(std::string_view option, const std::string& path) {
     if (format.ending == ending) return {};
     endings.push_back(format.ending);
   }
-  return fail(ErrorCode::usage, "the {}'s name {} must end in {}, which chooses its format.", option,
+  return fail(ErrorCode::usage, "the {}'s name {} must end in {}, which sets its format.", option,
               printable_line(path), fmt::join(endings, " or "));
 }
 

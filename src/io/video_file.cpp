@@ -22,10 +22,10 @@ std::string message_of(const ChildProcess& program, std::size_t lines) {
 
 /// What became of an ffmpeg that did not do its work; a sentence.
 std::string failure_text(const ChildProcess& ffmpeg, const ChildProcess::End& end) {
-  if (end.stalled) return "ffmpeg had come to a halt and was ended. ";
+  if (end.stalled) return "ffmpeg stopped responding and was ended. ";
   const std::string how = end.signal != 0      ? fmt::format("was ended by signal {}", end.signal)
                           : end.exit_code != 0 ? fmt::format("ended with exit code {}", end.exit_code)
-                                               : "ended before it had read all pictures";
+                                               : "ended before it had read all frames";
   return fmt::format("ffmpeg {}{}", how, message_of(ffmpeg, 6));
 }
 
@@ -35,13 +35,13 @@ std::string fault_of(const std::string& file, const FilmFormat& format) {
   if (!start) return start.error().what + " ";
   if (start->size == 0) return "ffmpeg reported success, but wrote an empty file. ";
   if (start->content.size() < format.mark_at || start->content.substr(format.mark_at) != format.mark)
-    return fmt::format("ffmpeg reported success, but what it wrote is no {} file. ", format.label);
+    return fmt::format("ffmpeg reported success, but its output is not a {} file. ", format.label);
   auto probe = ChildProcess::start(
       {"ffprobe", "-v", "error", "-show_entries", "stream=codec_type", "-i", "file:" + file});
   if (!probe) return "";
   const ChildProcess::End end = probe->finish(std::chrono::seconds(20));
   if (end.exit_code != 1) return "";  // well, or ffprobe itself is broken, which tells nothing of the video
-  return "ffmpeg reported success, but ffprobe refuses the video" + message_of(*probe, 3);
+  return "ffmpeg reported success, but ffprobe rejects the video" + message_of(*probe, 3);
 }
 
 class VideoFile : public FrameSink {
@@ -70,8 +70,8 @@ class VideoFile : public FrameSink {
   /// Leaves nothing.
   void give_up(const std::string& why) {
     reason_ =
-        advised(fail(ErrorCode::io, "the video {} could not be made: {}", path_, why),
-                {advice("check the disk and that ffmpeg has the encoder (the Debian package ffmpeg has it)"),
+        advised(fail(ErrorCode::io, "cannot make the video {}: {}", path_, why),
+                {advice("check the disk, and that ffmpeg has the encoder (the Debian package ffmpeg has it)"),
                  {RemedyKind::write_pictures}});
     ffmpeg_.reset();
     file_.reset();  // removes the temporary file
@@ -108,7 +108,7 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Fil
   auto ffmpeg = ChildProcess::start(words);
   if (!ffmpeg)
     return advised(
-        fail(ffmpeg.error(), "the video {} cannot be made: {} Videos need the program ffmpeg on PATH.", path,
+        fail(ffmpeg.error(), "cannot make the video {}: {} Videos need the program ffmpeg on PATH.", path,
              ffmpeg.error().what),
         {advice("install it with apt install ffmpeg"), {RemedyKind::write_pictures}});
   return std::unique_ptr<FrameSink>(std::make_unique<VideoFile>(std::move(file), std::move(*ffmpeg), format));

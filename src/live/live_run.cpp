@@ -48,8 +48,7 @@ Status LiveRun::change(std::string_view key_lines, std::vector<double> channels)
   state.step =
       step_at_same_time(state.step, model().simulation.timestep, solver->model().simulation.timestep);
   if (const Status loaded = solver->load(state); !loaded)
-    return fail(ErrorCode::scene_rejected,
-                "The number of particles and balls cannot change while a run goes on.");
+    return fail(ErrorCode::scene_rejected, "The number of particles and balls cannot change during a run.");
   ASPIC_TRY(Inputs inputs, inputs_for(solver->model(), channels));
   ASPIC_CHECK(solver->set_inputs(inputs));
   inputs_ = std::move(inputs);

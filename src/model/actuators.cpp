@@ -296,13 +296,13 @@ std::optional<ActuatorFault> fault_of_signal(const ActuatorSettings& actuator) {
   if (actuator.signal != Signal::input && least < least_stretch)
     return ActuatorFault{
         actuator.volume_change ? "volume-change" : "amplitude",
-        fmt::format("rest lengths would fall to {:.4g} of what they are at rest; at least {} must be "
-                    "left: choose a smaller one, or a signal that is never negative",
+        fmt::format("rest lengths would fall to {:.4g} of their values at rest, and the minimum is {}: "
+                    "choose a smaller one, or a signal that is never negative",
                     least, least_stretch)};
   if (actuator.phase.along != BodyAxis::none && actuator.phase.wavelength == 0.0)
-    return ActuatorFault{"phase.wavelength",
-                         "a wave has a length: write one other than 0, a negative one for a wave "
-                         "that runs the other way"};
+    return ActuatorFault{
+        "phase.wavelength",
+        "a wavelength cannot be 0: write a positive one, or a negative one to reverse the wave"};
   return std::nullopt;
 }
 
@@ -311,7 +311,7 @@ std::optional<ActuatorFault> fault_of_cells(const ActuatorSettings& actuator, co
                                             const ActuatedBody& seen) {
   const auto phases =
       actuator.phase.cells.empty() ? std::optional(CellNumbers()) : cell_numbers(actuator.phase.cells);
-  if (!phases) return ActuatorFault{"phase.cells", "it is no list of phases by cell, \"nx ny nz: …\""};
+  if (!phases) return ActuatorFault{"phase.cells", "it is not a list of phases by cell, \"nx ny nz: …\""};
   const auto mask =
       actuator.select.voxels.empty() ? std::optional(std::array<int, 3>()) : size_of(actuator.select.voxels);
   if (!mask) return ActuatorFault{"select.voxels", "its layers and rows must be of one size"};
@@ -320,7 +320,7 @@ std::optional<ActuatorFault> fault_of_cells(const ActuatorSettings& actuator, co
       {"select.voxels", actuator.select.voxels.empty() ? std::nullopt : mask}};
   for (const auto& [key, size] : sizes) {
     if (!size) continue;
-    if (!seen.lattice) return ActuatorFault{key, fmt::format("{} has no cells; leave it out", body)};
+    if (!seen.lattice) return ActuatorFault{key, fmt::format("{} has no cells; remove it", body)};
     if (*size != seen.grid)
       return ActuatorFault{key, fmt::format("it has {} cells along x, y and z, and {} has {}",
                                             size_text(*size), body, size_text(seen.grid))};
@@ -367,7 +367,7 @@ std::optional<ActuatorFault> fault_of(const ModelSettings& settings, std::size_t
                     [&](const Lattice::Place& cell) { any = any || chooses(actuator.select, *body, cell); });
   }
   if (!any)
-    return ActuatorFault{"select", fmt::format("it chooses no cell of {}; check its material, box and mask",
+    return ActuatorFault{"select", fmt::format("it selects no cell of {}; check its material, box and mask",
                                                fmt::join(names, ", "))};
   return std::nullopt;
 }

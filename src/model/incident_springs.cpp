@@ -13,8 +13,8 @@ Status check_words(const Model& model) {
   const std::uint64_t limit = (std::uint64_t{1} << (32 - class_bits(model))) - 1;
   if (model.particle_count() <= limit) return {};
   return advised(fail(ErrorCode::scene_rejected,
-                      "{} particles with {} kinds of springs are more than one 32-bit word a spring can name "
-                      "({} particles at most).",
+                      "{} particles with {} kinds of springs exceed the 32-bit word that names a spring ({} "
+                      "particles at most).",
                       model.particle_count(), model.spring_classes.size(), limit),
                  {use_backend("cpu"), advice("use fewer particles-per-edge")});
 }
@@ -68,10 +68,9 @@ std::vector<std::uint64_t> slice_starts(const Model& model, IncidentWords words,
 
 Status check_count(const Model& model, std::uint64_t words) {
   if (words <= 0xffffffffu) return {};
-  return advised(
-      fail(ErrorCode::scene_rejected, "{} springs have more ends than a list with 32-bit indices can name.",
-           spring_count(model)),
-      {use_backend("cpu"), advice("use fewer particles-per-edge")});
+  return advised(fail(ErrorCode::scene_rejected,
+                      "{} springs have too many ends for a list with 32-bit indices.", spring_count(model)),
+                 {use_backend("cpu"), advice("use fewer particles-per-edge")});
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Status check_pins(const Model& model, Inputs& inputs) {
     }
     if (model.inverse_mass[particle] != 0.0) {
       return fail(ErrorCode::usage,
-                  "released: particle {} is free already; list only particles that the scene pins", particle);
+                  "released: particle {} is already free; list only particles that the scene pins", particle);
     }
   }
   return {};
@@ -47,7 +47,8 @@ Status check_pins(const Model& model, Inputs& inputs) {
 std::string unread_channel(const Model& model) {
   const std::vector<std::string> names = input_names(model);
   if (names.empty())
-    return "no actuator of the scene has signal = \"input\", so none reads a channel; leave the channels out";
+    return "no actuator of the scene has signal = \"input\", so no channel has an effect; remove the "
+           "channels";
   return fmt::format("the scene reads {}: that of {}",
                      names.size() == 1 ? "one channel" : fmt::format("{} channels", names.size()),
                      fmt::join(names, ", "));

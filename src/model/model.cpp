@@ -45,10 +45,10 @@ QuadMesh surface_of(const Body& body) {
 Result<Model> build_model(const ModelSettings& settings) {
   const ModelCounts predicted = predict_counts(settings);
   if (predicted.particles + predicted.balls > most_indices) {
-    return fail(ErrorCode::scene_rejected,
-                "the scene has {} particles and {} balls: more than 32-bit indices can name; use fewer "
-                "particles-per-edge",
-                predicted.particles, predicted.balls);
+    return fail(
+        ErrorCode::scene_rejected,
+        "the scene has {} particles and {} balls, which exceeds 32-bit indices; use fewer particles-per-edge",
+        predicted.particles, predicted.balls);
   }
   Model model;
   model.simulation = settings.simulation;

@@ -159,11 +159,9 @@ std::optional<CellFault> check_palette(const ModelSettings& settings, const Voxe
                                        const VoxelShape& shape) {
   for (const auto& [key, name] : voxels.palette) {
     if (key.size() != 1 || !is_full_cell(key.front()))
-      return CellFault{
-          "palette",
-          fmt::format("\"{}\" stands for no cell: a key is one letter, digit or other sign of ASCII; "
-                      "'.', '0' and ' ' are empty cells",
-                      excerpt(key, 20))};
+      return CellFault{"palette", fmt::format("\"{}\" is not a cell: a key is one letter, digit or other "
+                                              "sign of ASCII; '.', '0' and ' ' are empty cells",
+                                              excerpt(key, 20))};
     if (!find_material(settings, name))
       return CellFault{"palette", fmt::format("'{}' is {}", key, unknown_material(settings, name))};
   }
@@ -198,13 +196,11 @@ std::variant<VoxelShape, CellFault> shape_of(const VoxelsSettings& voxels) {
   Grid grid = grid_of(voxels.layers);
   const PiecesOf pieces(grid);
   if (pieces.sizes.empty())
-    return fault(
-        "the body is empty: none of its cells is full; write a digit or letter where there is "
-        "material");
+    return fault("the body is empty: all its cells are empty. Write a digit or letter for each full cell");
   if (pieces.sizes.size() > 1 && voxels.pieces == Pieces::refuse)
     return fault(
-        fmt::format("the cells are {} pieces that share no face, of {} cells: join them, write pieces = "
-                    "\"largest\" to keep one, or pieces = \"all\" to keep them as they are",
+        fmt::format("the cells form {} pieces that share no face, of {} cells: join them, write pieces = "
+                    "\"largest\" to keep one, or pieces = \"all\" to keep all",
                     pieces.sizes.size(), sizes_text(pieces.sizes)));
   if (voxels.pieces == Pieces::largest) {
     const auto kept =
@@ -221,8 +217,7 @@ std::optional<CellFault> fault_of(const ModelSettings& settings, const VoxelsSet
   auto found = shape_of(voxels);
   if (auto* const wrong = std::get_if<CellFault>(&found)) return std::move(*wrong);
   if (!voxels.skin.empty() && !mesh_of_skin_text(voxels.skin))
-    return CellFault{
-        "skin", "it is no mesh: it is made from one by the program, and was changed since; make it again"};
+    return CellFault{"skin", "this skin is not one that Aspic made, or it was changed: make it again"};
   if (!voxels.palette.empty()) return check_palette(settings, voxels, std::get<VoxelShape>(found));
   const std::string& name = voxels.material.name;
   if (name.empty() || find_material(settings, name)) return std::nullopt;

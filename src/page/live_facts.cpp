@@ -81,7 +81,7 @@ Json input_rows(const ModelSettings& settings) {
                     {"label", name},
                     {"unit", ""},
                     {"value", 0.0},
-                    {"meaning", "The signal w of this actuator, which is 0 until it is set."},
+                    {"meaning", "Sets the signal w of this actuator; initially 0."},
                     {"allowed", "a number from -1 to 1"},
                     {"min", -1.0},
                     {"max", 1.0},
@@ -93,16 +93,16 @@ Json input_rows(const ModelSettings& settings) {
 
 Result<std::string_view> live_module() {
   if (!wasm_files().empty()) return wasm_files().front().text;
-  return advised(fail(ErrorCode::io, "this program was built without the WebAssembly that a live page runs."),
-                 {advice("run scripts/wasm.sh in its source tree, which makes it, and build again")});
+  return advised(fail(ErrorCode::io, "this build has no WebAssembly, which a live page needs."),
+                 {advice("run scripts/wasm.sh in its source tree and build again")});
 }
 
 Status check_live(Precision precision, Arithmetic arithmetic, bool inputs) {
   if (const auto module = live_module(); !module) return module.error();
   if (precision != Precision::single || arithmetic != Arithmetic::exact)
     return fail(ErrorCode::usage,
-                "a live page computes in single precision with exact arithmetic, whose bits it compares.");
-  if (inputs) return fail(ErrorCode::usage, "a live page cannot repeat pulls and pins of hands.");
+                "a live page needs single precision and exact arithmetic, since it compares bits.");
+  if (inputs) return fail(ErrorCode::usage, "a live page cannot repeat mouse pulls and pins.");
   return {};
 }
 

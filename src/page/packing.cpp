@@ -79,7 +79,7 @@ Result<Deflater> Deflater::create() {
   auto stream = std::make_unique<Stream>();
   constexpr int raw = -15, memory = 9;
   if (deflateInit2(&stream->z, level, Z_DEFLATED, raw, memory, Z_DEFAULT_STRATEGY) != Z_OK)
-    return Error{ErrorCode::io, "A page could not be compressed: there is not enough memory."};
+    return Error{ErrorCode::io, "Cannot compress a page: not enough memory."};
   return Deflater(std::unique_ptr<Stream, End>(stream.release()));
 }
 

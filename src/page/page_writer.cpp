@@ -40,16 +40,15 @@ Status check_page(std::uint64_t pictures, std::uint64_t positions_each, double f
   const double share = static_cast<double>(most_positions) / static_cast<double>(positions_each) /
                        static_cast<double>(pictures);
   const double fitting = fps * share >= 1.0 ? std::floor(fps * share) : rounded(0.9 * fps * share);
-  return advised(
-      fail(ErrorCode::usage,
-           "a page of {} pictures of {} particles and balls would hold {:.0f} million positions{}, of which "
-           "a browser holds {} million.",
-           pictures, live ? positions_each / 2 : positions_each,
-           static_cast<double>(pictures) * static_cast<double>(positions_each) * 1e-6,
-           live ? " and velocities" : "", most_positions / 1000000),
-      {{RemedyKind::lower_fps, {fmt::format("{:g}", fitting)}},
-       {RemedyKind::shorten},
-       advice("use fewer particles")});
+  return advised(fail(ErrorCode::usage,
+                      "a page of {} frames of {} particles and balls would hold {:.0f} million positions{}, "
+                      "and a browser holds {} million.",
+                      pictures, live ? positions_each / 2 : positions_each,
+                      static_cast<double>(pictures) * static_cast<double>(positions_each) * 1e-6,
+                      live ? " and velocities" : "", most_positions / 1000000),
+                 {{RemedyKind::lower_fps, {fmt::format("{:g}", fitting)}},
+                  {RemedyKind::shorten},
+                  advice("use fewer particles")});
 }
 
 Status check_page_name(const std::string& path) {
@@ -58,8 +57,7 @@ Status check_page_name(const std::string& path) {
                 "a page named - would be a file of that name: write /dev/stdout for standard output.");
   const std::string ending = ending_of(path);
   if (ending.empty() || ending == ".html" || ending == ".htm" || is_device_or_pipe(path)) return {};
-  return fail(ErrorCode::usage, "the page's name {} must end in .html, which browsers open.",
-              printable_line(path));
+  return fail(ErrorCode::usage, "the page's name {} must end in .html.", printable_line(path));
 }
 
 Result<PageWriter> PageWriter::create(const std::string& path, Overwrite overwrite) {
@@ -71,11 +69,10 @@ Result<PageWriter> PageWriter::create(const std::string& path, Overwrite overwri
 Status PageWriter::write(std::string_view text) {
   characters_ += text.size();
   if (characters_ > most_characters || positions_ > most_positions)
-    return fail(
-        ErrorCode::io,
-        "{} would become longer than {} or hold more than {} million positions, with which browsers are "
-        "slow, and was not completed: use fewer pictures per second, less time, or fewer particles.",
-        printable_line(path()), human_bytes(most_characters), most_positions / 1000000);
+    return fail(ErrorCode::io,
+                "{} would exceed {} or {} million positions, which is slow in browsers. The page is "
+                "incomplete: use fewer frames per second, less time, or fewer particles.",
+                printable_line(path()), human_bytes(most_characters), most_positions / 1000000);
   return file_.write(text);
 }
 

@@ -50,17 +50,16 @@ Inputs with_pins(const Inputs& pins, Inputs inputs) {
 Result<InputLog> recorded_inputs(const History& history, const Moment& until) {
   const Moment begin = history.begin_moment();
   if (begin.step > 0) {
-    return fail(ErrorCode::usage,
-                "The history begins at step {}: it does not reach back to the start of the run.", begin.step);
+    return fail(ErrorCode::usage, "The history begins at step {}, not at the start of the run.", begin.step);
   }
   const std::string physics = physics_of(history.stretch(until.stretch).setup);
   InputLog log;
   for (std::uint64_t number = begin.stretch; number <= until.stretch; ++number) {
     const Stretch& stretch = history.stretch(number);
     if (!stretch.setup.thrown.empty())
-      return fail(ErrorCode::usage, "Balls were thrown: inputs that can be replayed are pulls and pins.");
+      return fail(ErrorCode::usage, "Balls were thrown: a replay has pulls and pins only.");
     if (physics_of(stretch.setup) != physics)
-      return fail(ErrorCode::usage, "The scene was changed in the run: inputs are replayed in one scene.");
+      return fail(ErrorCode::usage, "The scene was changed during the run: a replay needs one scene.");
     ASPIC_TRY(const Inputs pins, pins_of(stretch.setup));
     const std::uint64_t last = number == until.stretch ? until.step : stretch.last;
     for (std::optional<std::uint64_t> step = stretch.first; step && *step <= last;

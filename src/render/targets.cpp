@@ -26,7 +26,7 @@ Result<PictureTargets> PictureTargets::create(gl::Context& context, int width, i
     return DrawableImage::create(context, name, settings, depth);
   };
   ASPIC_TRY(targets.samples,
-            make("picture samples", {.width = width, .height = height, .samples = samples}, true));
+            make("image samples", {.width = width, .height = height, .samples = samples}, true));
   ASPIC_TRY(targets.picture, make("picture", {.width = width, .height = height}));
   ASPIC_TRY(targets.behind, make("behind", {.width = half_width, .height = half_height}));
   ASPIC_TRY(targets.shade,

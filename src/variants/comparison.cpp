@@ -26,13 +26,13 @@ Result<std::vector<Variant>> variants_of(const Scene& scene, const BackendChoice
                                          const std::vector<Difference>& differences) {
   if (differences.size() >= most_compared)
     return fail(ErrorCode::usage,
-                "{} differences are given; at most {} runs are compared with the scene's own.",
+                "{} differences are given; Aspic compares at most {} runs with the scene's own.",
                 differences.size(), most_compared - 1);
   std::vector<Variant> runs = {{scene, backend}};
   for (const Difference& difference : differences) {
     auto run = varied(scene, backend, std::span(&difference, 1));
     if (!run) {
-      return fail(run.error(), "the variant {}={} cannot be run:\n{}", printable_line(difference.key),
+      return fail(run.error(), "cannot run the variant {}={}:\n{}", printable_line(difference.key),
                   printable_line(difference.value), run.error().what);
     }
     runs.push_back(std::move(*run));

@@ -9,7 +9,7 @@ Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings
   const double duration = length.duration.value_or(simulation.duration);
   const double steps = std::round(duration / simulation.timestep);
   if (!(steps <= static_cast<double>(most_steps))) {
-    return fail(ErrorCode::usage, "{} s at a time step of {} s are more steps than can be counted.", duration,
+    return fail(ErrorCode::usage, "{} s at a time step of {} s are too many steps.", duration,
                 simulation.timestep);
   }
   return static_cast<std::uint64_t>(steps);

@@ -197,7 +197,7 @@ def encoders(attack):
         write(os.path.join(there, "film.mp4"), "earlier")
         done = attack.run(*film, *FILES, "--force", "--video", "film.mp4", cwd=there, env=env)
         attack.judge(done, [IO], note)
-        attack.require(b"film.mp4 could not be made" in done.err and b"All other files of the run were completed." in done.err, f"{note}: says {done}")
+        attack.require(b"cannot make the video" in done.err and b"All other files of the run are complete." in done.err, f"{note}: says {done}")
         attack.require(hash_in(done) == hash_in(whole), f"{note}: the run did not go on to its end: {done.out[:500]}")
         for name in NAMES:
             path = os.path.join(there, name)
@@ -258,7 +258,7 @@ def halts(attack):
         child.send_signal(signal.SIGINT)
     for note, there, child in children:
         code, err, seconds = end_of(attack, child, note, 40)
-        attack.require(code == IO and b"film.mp4 could not be made" in err, f"{note}: ended {code} {err[:600]}")
+        attack.require(code == IO and b"cannot make the video" in err, f"{note}: ended {code} {err[:600]}")
         attack.require(names(there) == sorted(NAMES), f"{note}: left {names(there)}")
 
 

@@ -104,7 +104,7 @@ TEST_F(ContextGl, GivesHardwareOrSaysWhatWasTried) {
     EXPECT_THAT(made.error().message(), HasSubstr("Tried: "));
     EXPECT_THAT(made.error().message(),
                 HasSubstr("Unset the environment variable ASPIC_EGL_DEVICE, which is \"hardware\""));
-    const bool found = made.error().message().find(", a software rasteriser") != std::string::npos;
+    const bool found = made.error().message().find(", a software rasterizer") != std::string::npos;
     EXPECT_EQ(made.error().message().find("apt install libegl1") != std::string::npos, !found);
     EXPECT_THAT(made.error().message(), HasSubstr("install the graphics card's OpenGL driver"));
   }

@@ -134,7 +134,7 @@ TEST_F(PassTimes, NameAndCountTheBallsToo) {
       EXPECT_EQ(counts.at("balls: flight and terrain"), ends);
       EXPECT_EQ(counts.at("balls: find contacts"), ends);
       EXPECT_EQ(counts.at("balls: find blocks of particles"), ends);
-      EXPECT_EQ(counts.at("balls: look into blocks"), ends);  // of particles: one ball makes no crowd
+      EXPECT_EQ(counts.at("balls: search blocks"), ends);  // of particles: one ball makes no crowd
       EXPECT_EQ(counts.at("balls: count contacts"), ends);
       EXPECT_EQ(counts.at("balls: impulses on balls"), 3 * ends);
       EXPECT_EQ(counts.at("balls: impulses on particles"), 2 * ends);

@@ -119,7 +119,7 @@ TEST(ChildProcess, AllEndWhereTheProcessIsAboutTo) {
 TEST(ChildProcess, MissingProgramIsAnError) {
   const auto child = ChildProcess::start({"no-such-program-anywhere"});
   ASSERT_FALSE(child.ok());
-  EXPECT_THAT(child.error().message(), testing::HasSubstr("no-such-program-anywhere cannot be started"));
+  EXPECT_THAT(child.error().message(), testing::HasSubstr("Cannot start no-such-program-anywhere"));
 }
 
 }  // namespace

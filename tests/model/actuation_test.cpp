@@ -336,7 +336,7 @@ TEST(Actuation, ChannelsAreThoseOfActuatorsWithInputs) {
   settings.actuators.resize(2);
   settings.actuators[0].signal = Signal::sine;
   EXPECT_THAT(rounded_inputs(test::build(settings), {.channels = {0.1}}, Precision::single).error().what,
-              HasSubstr("none reads a channel"));
+              HasSubstr("no channel has an effect"));
 }
 
 TEST(Actuation, FaultsSayWhatIsWrong) {
@@ -362,14 +362,14 @@ TEST(Actuation, FaultsSayWhatIsWrong) {
   EXPECT_THAT(fault(bad), HasSubstr("select.material: it names the material \"bone\""));
   bad = good;
   bad.select.box = BoxSettings{{5.0, 5.0, 5.0}, {6.0, 6.0, 6.0}};
-  EXPECT_THAT(fault(bad), HasSubstr("select: it chooses no cell of worm"));
+  EXPECT_THAT(fault(bad), HasSubstr("select: it selects no cell of worm"));
   bad = good;
   bad.select.voxels = {{"11"}};
   EXPECT_THAT(fault(bad),
               HasSubstr("select.voxels: it has 2 × 1 × 1 cells along x, y and z, and worm has 4 × 2 × 2"));
   bad = good;
   bad.phase.cells = "4 2 2: 1";
-  EXPECT_THAT(fault(bad), HasSubstr("phase.cells: it is no list"));
+  EXPECT_THAT(fault(bad), HasSubstr("phase.cells: it is not a list"));
   bad = good;
   bad.bodies = {"cloth[0]"};
   bad.phase.cells = "1 1 1: 1";

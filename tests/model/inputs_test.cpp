@@ -53,7 +53,7 @@ TEST(Inputs, WhatIsWrongIsNamed) {
   EXPECT_THAT(refusal({{{0, {}, 1.0, 0.0}, {6, {}, 1.0, 0.0}}}), HasSubstr("pulls[1]: particle 6"));
   EXPECT_THAT(refusal({.pinned = {0, 7}}), HasSubstr("pinned[1]: there is no particle 7; the scene has 6"));
   EXPECT_THAT(refusal({.pinned = {3, 0, 3}}), HasSubstr("pinned: particle 3 is listed twice"));
-  EXPECT_THAT(refusal({.released = {4, 3}}), HasSubstr("released: particle 3 is free already"));
+  EXPECT_THAT(refusal({.released = {4, 3}}), HasSubstr("released: particle 3 is already free"));
   EXPECT_THAT(refusal({.pinned = {1}, .released = {1}}), HasSubstr("particle 1 is both"));
   EXPECT_THAT(refusal({.channels = {0.0, infinity}}), HasSubstr("channels[1]: inf is not finite"));
   EXPECT_THAT(refusal({.channels = {1e39}}), HasSubstr("channels[0]: 1e+39 is not finite in single"));

@@ -142,7 +142,7 @@ TEST_F(RunLivePage, RefusesWhatABrowserCannotRepeat) {
   const std::pair<Words, std::string> wrong[] = {
       {{"--precision", "double"}, "single precision"},
       {{"--variant", "h=0.002"}, "omit --variant"},
-      {{"--html", dir.file("p.html")}, "both to be written"},
+      {{"--html", dir.file("p.html")}, "would both write"},
       {{"--fps", "1000", "--duration", "100000"}, "and velocities"},
   };
   for (const auto& [words, sentence] : wrong) {

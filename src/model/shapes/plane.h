@@ -8,8 +8,7 @@ struct Plane : Shape {
   static constexpr std::string_view name = "plane", title = "plane", kernel = "plane";
   static constexpr GeometryKey keys[] = {
       {"point", GeometryKind::place, "A point of the plane.", Vec3{0.0, -1.0, 0.0}},
-      {"normal", GeometryKind::direction, "Direction to the free side; its length does not matter.",
-       Vec3{0.0, 1.0, 0.0}}};
+      {"normal", GeometryKind::direction, "Direction to the free side, of any length.", Vec3{0.0, 1.0, 0.0}}};
   static constexpr Vec3 drop = {0.0, 1.9, 0.0};
 
   template <class T>

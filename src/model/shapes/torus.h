@@ -13,8 +13,7 @@ struct Torus : Shape {
   static constexpr std::string_view name = "torus", title = "torus", kernel = "torus";
   static constexpr GeometryKey keys[] = {
       {"centre", GeometryKind::place, "Centre.", Vec3{0.0, -1.0, 0.0}},
-      {"axis", GeometryKind::direction, "Axis that the ring runs around; its length does not matter.",
-       Vec3{0.0, 1.0, 0.0}},
+      {"axis", GeometryKind::direction, "Axis of the ring, of any length.", Vec3{0.0, 1.0, 0.0}},
       {"major-radius", GeometryKind::length, "Radius of the ring.", 3.0},
       {"minor-radius", GeometryKind::length, "Radius of the tube along it.", 1.2}};
   static constexpr Vec3 drop = {0.3, 3.4, 0.2};
