@@ -35,7 +35,7 @@ _OF_ALL = ("centre-of-mass", "momentum", "energy", "actuator-work")
 
 
 class Instance(Steerable):
-    """An instance of a batch: ``batch[i]``, read and steered as a Simulation is. The batch alone steps it.
+    """An instance of a batch: ``batch[i]``, with the interface of a Simulation. Only the batch makes its steps.
 
     It follows the batch; its arrays are copies, (n, 3), float32.
     """
@@ -77,7 +77,7 @@ class Instance(Steerable):
     def render(
         self, width: int = 960, height: int = 540, view: Mapping[str, Any] | None = None, *, text: bool = True
     ) -> Picture:
-        """A picture of the state, as ``Simulation.render()``. The batch keeps the OpenGL context of its last scene."""
+        """Return an image of the state, as ``Simulation.render()``. The batch keeps its OpenGL context."""
         return self._drawer.of(self).render(width, height, view, text=text)
 
     def _ipython_key_completions_(self) -> list[str]:
@@ -88,7 +88,7 @@ class Instance(Steerable):
 
 
 class _Drawer:
-    """A simulation that shows instances, which have no pictures."""
+    """A simulation that shows instances, without images."""
 
     def __init__(self) -> None:
         self._shown: tuple[str, Simulation] | None = None
@@ -108,7 +108,7 @@ class Batch(Unshared):
     """Many scenes that are stepped together on the CPU, equal ones and others in any mixture, without contact.
 
     Instance i ends with the bits that ``Simulation(scenes[i])`` has, whatever the others are and however many threads
-    compute. One that diverges stays at its last good state, while the others go on. Scenes with the same bodies and
+    compute. One that diverges stays at its last good state, while the others continue. Scenes with the same bodies and
     time step, an explicit method, at most 2,048 particles and no balls are the fastest, and few long calls are faster
     than many short ones. Every number is in SI units; arrays are copies with the instance first. Steps run without the
     GIL; several threads may use one batch: they take turns.
@@ -126,7 +126,7 @@ class Batch(Unshared):
 
         ``scenes``: several, each one or what ``aspic.load()`` takes, or a single one, of which ``count`` instances are
         made; the same object several times is made once. ``backend``: ``"cpu"``, or ``"auto"``, which is the same:
-        there are no batches on a GPU yet. ``threads``: 1 … 1024, 0: as many as there are processors, or the environment
+        there are no batches on a GPU yet. ``threads``: 1 … 1024, 0: the number of CPU cores, or the environment
         variable ASPIC_THREADS. Raises UsageError for no scenes, another backend and other numbers; SceneError where a
         model is larger than memory, and what ``load()`` raises.
         """
@@ -142,7 +142,7 @@ class Batch(Unshared):
             raise UsageError("count belongs to a single scene: a list has as many instances as scenes")
         else:
             wanted = list(scenes)
-        threads = whole(threads, "a number of threads (0: as many as processors)", most=1024)
+        threads = whole(threads, "a number of threads (0: as many as CPU cores)", most=1024)
         numbers: dict[Any, int] = {}
         cores: list[_aspic.Scene] = []
         which: list[int] = []
@@ -182,7 +182,7 @@ class Batch(Unshared):
     # Steps.
 
     def step(self, steps: int = 1) -> int:
-        """Makes so many steps of every instance, and returns how many are diverged: ``diverged`` says which.
+        """Advance every instance by ``steps``, and return how many have diverged: ``diverged`` names them.
 
         Those stay at their last good states until ``reset()``, ``set_scene()`` or their ``load()`` and ``update()``.
         Ctrl-C (KeyboardInterrupt) and ``stop()`` (InterruptedRun) leave every instance at the end of a step, but not
@@ -221,7 +221,7 @@ class Batch(Unshared):
         return BatchTrajectory(time, diverged.astype("int64"), hashes, series)
 
     def stop(self) -> None:
-        """Ends ``step()`` and ``run()`` that another thread is in: they raise InterruptedRun. Otherwise nothing."""
+        """Interrupt ``step()`` or ``run()`` in another thread, which raises InterruptedRun. No effect otherwise."""
         self._core.stop()
 
     def reset(self, mask: ArrayLike | None = None) -> None:
@@ -261,7 +261,7 @@ class Batch(Unshared):
 
     @property
     def hash(self) -> list[str]:
-        """Of each state: what ``Simulation.hash`` of its scene alone is."""
+        """State hash of each instance, as ``Simulation.hash`` of its scene alone."""
         return self._core.hashes()
 
     def read(self, field: str) -> NDArray[np.float32]:
@@ -273,17 +273,17 @@ class Batch(Unshared):
 
     @property
     def positions(self) -> NDArray[np.float32]:
-        """Of the particles, (n, p, 3) [m]. Raises UsageError where their number differs: ``batch[i].positions``."""
+        """Positions of particles, (n, p, 3) [m]. Raises UsageError where numbers differ: use ``batch[i].positions``."""
         return self.read("positions")
 
     @property
     def velocities(self) -> NDArray[np.float32]:
-        """Of the particles, (n, p, 3) [m/s]. Raises UsageError where their number differs."""
+        """Velocities of particles, (n, p, 3) [m/s]. Raises UsageError where their number differs."""
         return self.read("velocities")
 
     @property
     def centre_of_mass(self) -> NDArray[np.float64]:
-        """Of all particles of each instance, without balls, (n, 3) [m]."""
+        """Center of mass of all particles of each instance, without balls, (n, 3) [m]."""
         return self._now("centre-of-mass")[:, 0]  # type: ignore[no-any-return]
 
     @property
@@ -293,14 +293,14 @@ class Batch(Unshared):
 
     @property
     def energy(self) -> Energy:
-        """Of each instance, arrays (n,) [J]; ``energy.total`` is the sum."""
+        """Energies of each instance, arrays (n,) [J]; ``energy.total`` is the sum."""
         return Energy(*(part[:, 0] for part in self._now("energy")))
 
     # How it computes.
 
     @property
     def description(self) -> str:
-        """How it computes, in a line: how instances are put together, threads, instruction set."""
+        """One line on the grouping of instances, threads and the instruction set."""
         return self._core.description()
 
     @property

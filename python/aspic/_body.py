@@ -54,7 +54,7 @@ class Body:
 
     @property
     def particles(self) -> range:
-        """Its particles' indices in the simulation's arrays."""
+        """Indices of its particles in the simulation's arrays."""
         return range(self._first, self._first + self._count)
 
     @property
@@ -63,7 +63,7 @@ class Body:
 
     @property
     def positions(self) -> Floats:
-        """Of its particles, (n, 3) [m]; may be assigned."""
+        """Positions of its particles, (n, 3) [m]; can be assigned."""
         return self._simulation.positions[self._slice]
 
     @positions.setter
@@ -72,7 +72,7 @@ class Body:
 
     @property
     def velocities(self) -> Floats:
-        """Of its particles, (n, 3) [m/s]; may be assigned."""
+        """Velocities of its particles, (n, 3) [m/s]; can be assigned."""
         return self._simulation.velocities[self._slice]
 
     @velocities.setter
@@ -81,27 +81,27 @@ class Body:
 
     @property
     def masses(self) -> NDArray[np.float64]:
-        """Of its particles, (n,) [kg], of pinned ones too."""
+        """Masses of its particles, (n,) [kg], including pinned ones."""
         return self._simulation.masses[self._slice]
 
     @property
     def centre_of_mass(self) -> NDArray[np.float64]:
-        """(3,) [m]."""
+        """Center of mass, (3,) [m]."""
         return weighted(self.masses, self.positions) / float(self.masses.sum())
 
     @property
     def momentum(self) -> NDArray[np.float64]:
-        """Σ m v, (3,) [N·s]."""
+        """Momentum Σ m v, (3,) [N·s]."""
         return weighted(self.masses, self.velocities)
 
     @property
     def forces(self) -> NDArray[np.float64]:
-        """On its particles, with the reaction of the ground and of pins, (n, 3) [N]."""
+        """Forces on its particles, with the reaction of the ground and of pins, (n, 3) [N]."""
         return self._simulation.quantities.force[self._slice]
 
     @property
     def contacts(self) -> NDArray[np.bool_]:
-        """Which of its particles are in contact with the ground or another body, (n,)."""
+        """Marks particles in contact with the ground or another body, (n,)."""
         return self._simulation.quantities.contact[self._slice]
 
     @property
@@ -111,13 +111,13 @@ class Body:
 
     @property
     def surface(self) -> NDArray[np.uint32]:
-        """Squares of the surface, (m, 4) indices into ``positions``, anticlockwise from outside; none for nets."""
+        """Surface quads, (m, 4) indices into ``positions``, anticlockwise from outside; none for nets."""
         faces = self._simulation._core.surface(self._index)
         return faces - faces.dtype.type(self._first)
 
     @property
     def skin(self) -> Skin | None:
-        """The mesh that the body was made of, moved along with its cells; None where it has none."""
+        """The mesh that the body was made from, at its present place; None without one."""
         corners, weights, triangles = self._simulation._core.mesh(self._index)
         if len(triangles) == 0:
             return None
@@ -158,22 +158,22 @@ class Ball:
 
     @property
     def launch_step(self) -> int:
-        """It takes part in the steps that begin at this step number or later."""
+        """First step number at which the ball moves."""
         return self._launch_step
 
     @property
     def position(self) -> Floats:
-        """Of its centre, (3,) [m]."""
+        """Position of its center, (3,) [m]."""
         return self._simulation.ball_positions[self._index]  # type: ignore[no-any-return]
 
     @property
     def velocity(self) -> Floats:
-        """(3,) [m/s]."""
+        """Velocity, (3,) [m/s]."""
         return self._simulation.ball_velocities[self._index]  # type: ignore[no-any-return]
 
     @property
     def angular_velocity(self) -> Floats:
-        """(3,) [rad/s]."""
+        """Angular velocity, (3,) [rad/s]."""
         return self._simulation.ball_angular_velocities[self._index]  # type: ignore[no-any-return]
 
     def __repr__(self) -> str:
@@ -181,5 +181,5 @@ class Ball:
 
 
 def weighted(masses: Any, vectors: Any) -> NDArray[np.float64]:
-    """Σ m·v in double precision, (3,); every axis is summed by itself, the same whatever lies beside it."""
+    """Σ m·v in double precision, (3,); each axis has its own sum, independent of the array's other columns."""
     return (masses[:, None] * vectors.astype("float64")).sum(axis=0)  # type: ignore[no-any-return]

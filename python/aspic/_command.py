@@ -16,7 +16,7 @@ __all__ = ["page_command"]
 
 
 def differences(scene: Scene) -> list[str] | None:
-    """What --set makes of the built-in scene of that name to have this one; None where nothing does."""
+    """Arguments of --set that turn the built-in scene of that name into this one; None if there are none."""
     if scene.name not in (builtin.name for builtin in scenes()):
         return None
     builtin = load(scene.name)

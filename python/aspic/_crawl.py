@@ -140,7 +140,7 @@ class Crawl(Locomotion):
 
 
 def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Of the last axis, in a fixed order."""
+    """Sum over the last axis in a fixed order."""
     return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
 
 

@@ -1,4 +1,4 @@
-"""What can compute here."""
+"""Backends and devices of this machine."""
 
 from __future__ import annotations
 

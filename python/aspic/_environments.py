@@ -28,7 +28,7 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
     """The n instances of a batch as environments. Derive from it, and say what acts, what is seen and what it is worth.
 
     ``act()``, ``observe()`` and ``judge()`` are yours; ``begin()`` and ``figures()`` may be. They work with
-    ``self.batch``. Steps, episodes, seeds, automatic resets, infos and pictures are done here. An environment whose
+    ``self.batch``. Steps, episodes, seeds, automatic resets, infos and images are done here. An environment whose
     instance diverges is terminated, at its last good state. Every array has the environment first.
 
     infos has what ``figures()`` gives, and ``diverged``, (n,) of bool; with automatic resets in the same step also
@@ -63,7 +63,7 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
         how long an action acts [s], a multiple of the time step; ``episode``: after this time an episode is truncated
         [s]; ``autoreset_mode``: when the next episode begins, ``NEXT_STEP``, ``SAME_STEP`` or
         ``DISABLED`` (``reset()`` with the option ``reset_mask``); ``render_mode``: ``"rgb_array"`` or None; ``width``,
-        ``height``: of pictures [pixels]; ``threads``: of the batch. Raises UsageError, and what ``Batch()`` raises.
+        ``height``: of images [pixels]; ``threads``: of the batch. Raises UsageError, and what ``Batch()`` raises.
         """
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise UsageError(f"a render mode is 'rgb_array' or None, not {render_mode!r}")
@@ -110,7 +110,7 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
         raise NotImplementedError
 
     def observe(self) -> Any:
-        """What is seen of the states as they are: a new array (n, …), in the observation space."""
+        """Return observations of the present states: a new array (n, …), in the observation space."""
         raise NotImplementedError
 
     def judge(self) -> tuple[ArrayLike, ArrayLike]:
@@ -134,7 +134,7 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
     ) -> tuple[Any, dict[str, Any]]:
         """Begins episodes: observations, (n, …), and infos.
 
-        ``seed``: environment i gets ``seed + i``, or one of a list; None: generators go on. ``options``: with
+        ``seed``: environment i gets ``seed + i``, or one of a list; None: generators continue. ``options``: with
         ``reset_mask``, (n,) of bool, only those environments begin. Raises UsageError for other shapes and types.
         """
         mask = np.ones(self.num_envs, np.bool_)
@@ -195,16 +195,16 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
         return observations, rewards, terminations, truncations, infos
 
     def render(self) -> tuple[Any, ...] | None:
-        """A picture of each environment, (height, width, 3) of uint8; None without a render mode.
+        """Return an image of each environment, (height, width, 3) of uint8; None without a render mode.
 
-        Needs an OpenGL device, a software rasteriser included (DeviceError). ``picture(i)`` draws a single one.
+        Needs an OpenGL device, hardware or software (DeviceError). ``picture(i)`` renders a single one.
         """
         if self.render_mode is None:
             return None
         return tuple(self.picture(i) for i in range(self.num_envs))
 
     def picture(self, index: int) -> Any:
-        """A picture of one environment, (height, width, 3) of uint8. Raises IndexError, DeviceError."""
+        """Return an image of one environment, (height, width, 3) of uint8. Raises IndexError, DeviceError."""
         return np.asarray(self.batch[index].render(*self._size))
 
     @property  # type: ignore[misc, unused-ignore]
@@ -296,7 +296,7 @@ class SingleEnv(Unshared, gymnasium.Env):  # type: ignore[misc, type-arg, unused
         self.metadata = {name: value for name, value in envs.metadata.items() if name != "autoreset_mode"}
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begins an episode: observation and info. ``seed``: of its random generator; None: it goes on."""
+        """Begin an episode; return observation and info. ``seed``: of its random generator; None: it continues."""
         super().reset(seed=seed)
         # The generator is Gymnasium's.
         self.envs._generators = [(self.np_random, self.np_random_seed)]
@@ -309,7 +309,7 @@ class SingleEnv(Unshared, gymnasium.Env):  # type: ignore[misc, type-arg, unused
         return observations[0], float(rewards[0]), bool(terminations[0]), bool(truncations[0]), _of_one(infos)
 
     def render(self) -> Any:
-        """A picture, (height, width, 3) of uint8; None without a render mode."""
+        """Return an image, (height, width, 3) of uint8; None without a render mode."""
         return None if self.render_mode is None else self.envs.picture(0)
 
     def close(self) -> None:

@@ -70,11 +70,11 @@ class DivergedError(Error, ArithmeticError):
     step: int
     """The step that failed."""
     index: int
-    """Of the first particle or ball that failed."""
+    """Position of the first particle or ball that failed."""
     ball: bool
     """Whether it is a ball."""
     trajectory: Trajectory | None = None
-    """What ``Simulation.run()`` had recorded."""
+    """The recording of ``Simulation.run()`` until then."""
 
 
 class FileError(Error, OSError):
@@ -94,7 +94,7 @@ class InterruptedRun(Error, RuntimeError):
 
     code = ErrorCode.INTERRUPTED
     trajectory: Trajectory | None = None
-    """What ``Simulation.run()`` had recorded."""
+    """The recording of ``Simulation.run()`` until then."""
 
 
 class ConvergenceWarning(UserWarning):
@@ -120,7 +120,7 @@ class StepWarning(UserWarning):
 
 
 class Unshared:
-    """What refers to a solver or a batch, of which there is one: it cannot be copied or pickled."""
+    """Base of objects with a solver or a batch of their own: they cannot be copied or pickled."""
 
     def __reduce_ex__(self, protocol: object) -> NoReturn:
         raise TypeError(

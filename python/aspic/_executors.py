@@ -61,7 +61,7 @@ def workers_of(executor: Any, workers: int) -> int:
 def submitter(
     executor: Any, workers: int, retries: int, options: Mapping[str, Any]
 ) -> Callable[[Callable[..., Any], Any, Sequence[Task]], Iterator[Outcome]]:
-    """What does tasks, f(common, task), and gives each with its result as it comes. Closing it drops the rest."""
+    """Runs tasks, f(common, task), and yields each with its result as it arrives. Closing it drops the rest."""
     kind = kind_of(executor)
     if options and kind not in ("dask", "address"):
         raise UsageError("submit is for Dask: keywords of Client.submit()")
@@ -258,7 +258,7 @@ class _Restartable:
 
 
 def _submitit(executor: Any, f: Callable[..., Any], common: Any, tasks: Sequence[Task]) -> Iterator[Outcome]:
-    """An array of jobs. What each returns is in submitit's folder until it is read."""
+    """An array of jobs. Their results stay in submitit's folder until they are read."""
     # A cluster takes arrays of some number of jobs: 1,001 if nobody has changed it.
     share = -(-len(tasks) // _ARRAY)
     tasks = [list(itertools.chain(*tasks[i : i + share])) for i in range(0, len(tasks), max(share, 1))]

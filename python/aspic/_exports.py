@@ -27,12 +27,12 @@ ENDINGS = (*OF_LIBRARY, *OF_USD, ".zarr")
 
 
 class Kind(NamedTuple):
-    """What an array is, besides time."""
+    """Metadata of an array, besides time."""
 
     dimensions: tuple[str, ...]
-    """Of a sample: ``("particle", "axis")``."""
+    """Dimensions of a sample: ``("particle", "axis")``."""
     unit: str
-    """Of SI; empty: it has none."""
+    """SI unit; empty: it has none."""
     meaning: str
     """A phrase."""
 
@@ -99,7 +99,7 @@ MOTION = (
 
 
 def kind_of(name: str) -> Kind:
-    """Of an array by its name, ``"cube[0].positions"``: then its particles are a dimension of that body."""
+    """Metadata of an array by its name, ``"cube[0].positions"``: then its particles are a dimension of that body."""
     plain = name.replace("_", "-")
     if plain in KINDS:
         return KINDS[plain]
@@ -115,7 +115,7 @@ def about_all(names: Iterable[str]) -> bool:
 
 
 def model_arrays(scene: Scene) -> dict[str, Any]:
-    """What does not change: masses, springs, surfaces."""
+    """Constant arrays: masses, springs, surfaces."""
     import numpy as np
 
     from ._simulation import Simulation
@@ -147,7 +147,7 @@ def model_arrays(scene: Scene) -> dict[str, Any]:
 
 
 def _meshes(of_bodies: list[tuple[Any, Any, Any]]) -> dict[str, Any]:
-    """What is drawn on bodies of cells; nothing where no body has a mesh."""
+    """Meshes to render on bodies of cells; none where no body has a mesh."""
     import numpy as np
 
     counts = [len(corners) for corners, _, _ in of_bodies]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["Folder"]
 
 Row = dict[str, Any]
-"""What a run's file holds (docs/sweeps.md)."""
+"""Contents of a run's file (docs/sweeps.md)."""
 
 
 class Folder:

@@ -1,4 +1,4 @@
-"""What tells a function from others, whatever process it is in."""
+"""Identity of a function, the same in every process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What acts on a simulation from outside, by step."""
+"""Inputs of a simulation, by step."""
 
 from __future__ import annotations
 
@@ -191,7 +191,7 @@ class Replayable(Steerable):
     def replay(self, path: str | os.PathLike[str]) -> None:
         """Takes over the inputs of a file by step: the run repeats to the bit on every backend.
 
-        What is assigned to ``pulls`` and ``pinned`` later replaces the rest of it. Raises SceneError with every mistake
+        Later assignments to ``pulls`` and ``pinned`` replace the rest of it. Raises SceneError with every mistake
         and its line; FileError.
         """
         self._core.set_log(self._core.read_log(name_of(path)))

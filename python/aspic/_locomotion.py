@@ -1,4 +1,4 @@
-"""What environments share in which a body moves along."""
+"""Common parts of environments in which a body moves along."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Locomotion(BatchEnv):
     """
 
     cycle: float
-    """Of the clock [s]."""
+    """Period of the clock [s]."""
     push: float
     """The largest component of the velocity at the beginning [m/s]."""
 

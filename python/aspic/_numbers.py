@@ -1,4 +1,4 @@
-"""What is checked of numbers before the library gets them."""
+"""Checks of numbers for the library."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def positive(value: Any, what: str, zero: bool = False, most: float = float("inf
 
 
 def pace(fps: Any, speed: Any) -> None:
-    """Pictures per second and simulated seconds per second shown. Raises UsageError."""
+    """Check frames per second and simulated seconds per second shown. Raises UsageError."""
     if fps is not None:
         positive(fps, "fps", most=MOST_FPS)
     positive(speed, "speed")

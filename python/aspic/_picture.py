@@ -1,4 +1,4 @@
-"""Pictures: arrays that notebooks show."""
+"""Images: arrays that notebooks show."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ __all__ = ["Picture"]
 
 
 class Picture(np.ndarray):
-    """A picture: an array (height, width, 3) of uint8, RGB encoded as sRGB, rows from the top down.
+    """An image: an array (height, width, 3) of uint8, RGB encoded as sRGB, rows from the top down.
 
-    Notebooks show it; elsewhere it is an array like any other. Its parts are pictures as long as their shape is one's.
+    Notebooks show it; elsewhere it is an array like any other. A part of it is an image if its shape fits.
     """
 
     def _repr_png_(self) -> bytes | None:
@@ -25,9 +25,9 @@ class Picture(np.ndarray):
         return self.ndim == 3 and self.shape[2] == 3 and self.dtype == np.uint8 and self.size > 0
 
     def png(self) -> bytes:
-        """The bytes of a PNG file. Raises ValueError where the shape is no picture's."""
+        """Return the bytes of a PNG file. Raises ValueError for an array of another shape."""
         if not self._is_picture():
-            raise ValueError(f"an array {self.shape} of {self.dtype} is no picture: (height, width, 3) of uint8 is")
+            raise ValueError(f"an array {self.shape} of {self.dtype} is not an image: (height, width, 3) of uint8 is")
         height, width = self.shape[:2]
         # Each row differs little from the one above: filter 2, Up.
         rows = np.ascontiguousarray(self).reshape(height, 3 * width)
@@ -46,13 +46,13 @@ class Picture(np.ndarray):
             file.write(data)
 
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
-        """What is computed from a picture is an ordinary array, or number."""
+        """Results computed from an image are ordinary arrays or numbers."""
         plain = np.asarray(array)
         return plain if plain.ndim else plain[()]
 
     def __repr__(self) -> str:
         if self._is_picture():
-            return f"<aspic.Picture: {self.shape[1]} × {self.shape[0]}>"
+            return f"<aspic.{type(self).__name__}: {self.shape[1]} × {self.shape[0]}>"
         return super().__repr__()
 
     __str__ = __repr__

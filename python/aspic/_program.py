@@ -20,10 +20,10 @@ def find() -> str:
     if found:
         return found
     if named:
-        raise FileError(f"ASPIC_PROGRAM is {named!r}, which is no program: set it to that of Aspic, or unset it.")
+        raise FileError(f"ASPIC_PROGRAM is {named!r}, which is not a program: set it to that of Aspic, or unset it.")
     raise FileError(
         "the window is part of the program aspic, which is not in PATH: build it (scripts/run.sh) and put it there, or "
-        "name it in the environment variable ASPIC_PROGRAM. Simulation.render() and film() need no window."
+        "name it in the environment variable ASPIC_PROGRAM. Simulation.render() needs no window."
     )
 
 

@@ -1,4 +1,4 @@
-"""What a simulation or an instance of a batch is, and where it is."""
+"""Reading of a simulation or an instance of a batch."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["Measures", "Quantities", "Readable", "Springs"]
 
 
 class Measures(NamedTuple):
-    """What a state is worth, in double precision whatever the state's own."""
+    """Diagnostics of a state, in double precision whatever the state's own."""
 
     energy: Energy
     """[J]; ``energy.total`` is its sum."""
@@ -53,22 +53,22 @@ class Springs(NamedTuple):
 
 
 class Quantities(NamedTuple):
-    """What particles and springs do in a state, in double precision: docs/exports.md defines each."""
+    """Quantities of particles and springs in a state, in double precision: docs/exports.md defines each."""
 
     speed: NDArray[np.float64]
-    """Of particles, (n,) [m/s]."""
+    """Speeds of particles, (n,) [m/s]."""
     mean_strain: NDArray[np.float64]
     """Mean absolute strain of a particle's springs, (n,)."""
     force: NDArray[np.float64]
     """On particles, with the reaction of the ground, of other bodies and of pins, (n, 3) [N]."""
     contact_force: NDArray[np.float64]
-    """Of the ground and of other bodies on particles, (n, 3) [N]."""
+    """Contact forces of the ground and of other bodies on particles, (n, 3) [N]."""
     contact: NDArray[np.bool_]
     """Whether particles are in contact with the ground or another body, (n,)."""
     strain: NDArray[np.float64]
     """L/r − 1 of springs, (m,); in the order of ``springs``."""
     tension: NDArray[np.float64]
-    """Of springs, (m,) [N]; < 0: pressure."""
+    """Tensions of springs, (m,) [N]; < 0: compression."""
 
 
 class Readable(Unshared):
@@ -95,7 +95,7 @@ class Readable(Unshared):
 
     @property
     def masses(self) -> NDArray[np.float64]:
-        """Of the particles, (n,) [kg], > 0, of pinned ones too."""
+        """Masses of the particles, (n,) [kg], > 0, including pinned ones."""
         return self._core.masses()
 
     @property
@@ -173,7 +173,7 @@ class Readable(Unshared):
 
     @property
     def positions(self) -> Floats:
-        """Of the particles, (n, 3) [m]; may be assigned."""
+        """Positions of the particles, (n, 3) [m]; can be assigned."""
         return self.read("positions")  # type: ignore[no-any-return]
 
     @positions.setter
@@ -182,7 +182,7 @@ class Readable(Unshared):
 
     @property
     def velocities(self) -> Floats:
-        """Of the particles, (n, 3) [m/s]; may be assigned."""
+        """Velocities of the particles, (n, 3) [m/s]; can be assigned."""
         return self.read("velocities")  # type: ignore[no-any-return]
 
     @velocities.setter
@@ -191,12 +191,12 @@ class Readable(Unshared):
 
     @property
     def ball_positions(self) -> Floats:
-        """Of the balls' centres, (b, 3) [m]."""
+        """Positions of the balls' centers, (b, 3) [m]."""
         return self.read("ball_positions")  # type: ignore[no-any-return]
 
     @property
     def ball_velocities(self) -> Floats:
-        """Of the balls, (b, 3) [m/s]."""
+        """Velocities of the balls, (b, 3) [m/s]."""
         return self.read("ball_velocities")  # type: ignore[no-any-return]
 
     @property
@@ -211,7 +211,7 @@ class Readable(Unshared):
 
     @property
     def _motion(self) -> Measures:
-        """The same but for elastic energy, which is 0: neither springs nor contacts are looked at."""
+        """The same with an elastic energy of 0, without a pass over springs and contacts."""
         return _measures(self._core.motion())
 
     @property

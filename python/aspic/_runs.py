@@ -26,7 +26,7 @@ SMALL = 2048
 
 
 class Study(NamedTuple):
-    """What all runs of a sweep have in common. It is sent with every task."""
+    """Common data of all runs of a sweep. It is sent with every task."""
 
     scene: str
     name: str
@@ -38,7 +38,7 @@ class Study(NamedTuple):
     every: float | None
     metrics: Mapping[str, Callable[[Trajectory], Any]]
     recipes: Mapping[str, str]
-    """Of each metric: a hash of what it computes and of what it is computed from; empty: it is not reused."""
+    """Hash of each metric's function and of its sources; empty: it is not reused."""
     trajectories: bool
     batch: int
     """Most runs that are stepped together."""
@@ -114,7 +114,7 @@ class _Running:
         self.figures = _aspic.RunFigures(where._core)
         self.recorder = Recorder(where, study.record) if study.record or study.metrics else None
         self.reason: str | None = None
-        """Of a divergence, which ends it."""
+        """Message of the divergence that ends the run."""
 
     def take(self, figures: bool, record: bool) -> None:
         if self.reason is None:
@@ -262,7 +262,7 @@ def smallest() -> Simulation:
 
 @functools.lru_cache(maxsize=8)
 def _taken(backend: str) -> str:
-    """What ``auto`` takes on this machine, which is asked once."""
+    """Backend that ``auto`` takes on this machine, determined once."""
     return Simulation(smallest().scene, backend).backend.split(":")[0]
 
 

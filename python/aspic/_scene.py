@@ -1,4 +1,4 @@
-"""Scenes: physics and picture of one TOML file."""
+"""Scenes: physics and view of one TOML file."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Parameter(NamedTuple):
     meaning: str
     """A sentence."""
     unit: str
-    """Of SI; empty: a pure number, or no number."""
+    """SI unit; empty: a pure number, or no number."""
     allowed: str
     """In words."""
     default: str
@@ -74,7 +74,7 @@ def changes(values: Mapping[str, Any]) -> list[str]:
 
 
 class Scene(Buildable):
-    """Physics and picture of one scene file.
+    """Physics and view of one scene file.
 
     Keys are the paths of ``--set``: ``scene["simulation.timestep"] = 0.0005``. Units are those of SI; every key, its
     unit, range and meaning is in ``aspic.parameters()`` and docs/scene-reference.md. The order of keys is that of
@@ -146,12 +146,12 @@ class Scene(Buildable):
 
     @property
     def notes(self) -> list[str]:
-        """What was repaired in meshes and made of them, a sentence each, since the scene was read."""
+        """Repairs and conversions of meshes, a sentence each, since the scene was read."""
         return list(self._notes)
 
     def __getitem__(self, key: str) -> Any:
         """The value of a key: a number, word, tuple (vectors) or list; None where it is absent or has no meaning here.
-        Of a table, ``scene["simulation"]``, a dict of its keys.
+        For a table, ``scene["simulation"]``, it is a dict of its keys.
 
         Raises SceneError (a ValueError) for an unknown key, with the nearest one.
         """

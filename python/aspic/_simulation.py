@@ -48,7 +48,7 @@ class Advance(NamedTuple):
     steps: int
     """Made in this call."""
     divergence: DivergedError | None = None
-    """What ended the steps; it is not raised."""
+    """The exception that ended the steps; it is not raised."""
     stopped: bool = False
     """Whether ``Simulation.stop()`` ended them."""
 
@@ -86,10 +86,11 @@ class Simulation(Replayable):
         precision: Literal["single", "double", None] = None,
         threads: int = 0,
     ):
-        """Makes the solver at the scene's start; later changes of ``scene`` do not matter to it.
+        """Make the solver at the scene's start; later changes of ``scene`` do not affect it.
 
-        What does not hold there is named by a RunWarning, bodies that overlap by an OverlapWarning; later, one names those too deep within
-        each other for contact to separate them, ten times a simulated second at most and each pair once.
+        A RunWarning names problems at the start, an OverlapWarning overlapping bodies. During the run an
+        OverlapWarning names each pair of bodies that is too deep for contact to separate, once, at most ten times per
+        simulated second.
 
         ``scene``: one, or what ``aspic.load()`` takes; ``backend``: ``"auto"`` (a hardware GPU, else ``cpu``),
         ``"gpu"``, ``"cpu"``, ``"reference"``, with options after colons (``"gpu:gather"``, ``"cpu:fast"``);
@@ -202,7 +203,7 @@ class Simulation(Replayable):
         ``"cube[0].positions"``, ``"….velocities"``, ``"….centre-of-mass"``, ``"….momentum"``. Also ``"speed"``, ``"force"``, ``"contact-force"``, ``"contact"``,
         ``"mean-strain"`` of particles, ``"strain"`` and ``"tension"`` of springs, ``"ball-positions"``,
         ``"ball-velocities"``, ``"ball-angular-velocities"``; ``"motion"`` is all that exports hold. ``controls``: the
-        ``inputs`` by step, (steps, inputs), in their order; then the run has so many steps. Raises UsageError for
+        ``inputs`` by step, (steps, inputs), in their order; the run has one step per row. Raises UsageError for
         others; DivergedError as ``step()``, with what was recorded as ``trajectory``.
         """
         if every is not None:
@@ -269,7 +270,7 @@ class Simulation(Replayable):
         return floats(controls, shape, "controls").tolist()  # type: ignore[no-any-return]
 
     def _advance(self, steps: int, controls: Sequence[Sequence[float]]) -> Made:
-        """So many steps, each with its own row of inputs."""
+        """Make a step for each row of inputs."""
         for count, row in enumerate(controls[:steps]):
             self.channels = row
             made, found, stopped = self._core.advance(1)
@@ -284,7 +285,7 @@ class Simulation(Replayable):
         take: Callable[[], None],
         controls: Sequence[Sequence[float]] | None = None,
     ) -> Made:
-        """So many steps with samples, the first at once. Steps of other threads in between do not count."""
+        """Advance by ``steps`` with samples, the first at once. Steps of other threads in between do not count."""
         take()
         # In steps: the k-th sample is where it would be without the others.
         h = self.timestep
@@ -317,7 +318,7 @@ class Simulation(Replayable):
         """Changes constants while it runs: stiffnesses, masses, gravity, contact, the time step.
 
         ``values``: keys and values as ``Scene.update()`` takes them. State, time and inputs stay: with another time step
-        the steps so far have other numbers. Another frequency goes on from the phase it is at, which changes the scene's
+        the steps so far have other numbers. Another frequency keeps the present phase, which changes the scene's
         ``phase``. Raises SceneError for what a scene refuses; UsageError for keys of the start, and where particles,
         springs, kinds of terrain or the integrator would become others, which takes a new Simulation. Then nothing
         changes.
@@ -352,11 +353,11 @@ class Simulation(Replayable):
     def render(
         self, width: int = 960, height: int = 540, view: Mapping[str, Any] | None = None, *, text: bool = True
     ) -> Picture:
-        """A picture of the state, (height, width, 3) of uint8, which notebooks show.
+        """Return an image of the state, (height, width, 3) of uint8, which notebooks show.
 
-        ``view``: keys of the scene's table ``view``, for this picture alone: ``{"colour": "strain"}``,
+        ``view``: keys of the scene's table ``view``, for this image alone: ``{"colour": "strain"}``,
         ``{"camera.position": [8, 4, 8]}``; ``text``: parameters, time and scales are written on it. The first one makes
-        an OpenGL context; a software rasteriser is enough. Raises SceneError for a wrong key or a size that cannot be
+        an OpenGL context; a software rasterizer is enough. Raises SceneError for a wrong key or a size that cannot be
         drawn, DeviceError without a device.
         """
         from ._picture import Picture
@@ -378,12 +379,12 @@ class Simulation(Replayable):
         text: bool = True,
         overwrite: bool = False,
     ) -> None:
-        """Steps, and films on the way.
+        """Run and record a video.
 
-        ``path``: a film with the ending of its format (``.mp4``, ``.webm``, …; needs the program ffmpeg), or a
-        directory of PNG files without one; ``duration``, ``steps``: as ``run()``; ``fps``: pictures per second shown,
+        ``path``: a video with the ending of its format (``.mp4``, ``.webm``, …; needs the program ffmpeg), or a
+        directory of PNG files without one; ``duration``, ``steps``: as ``run()``; ``fps``: frames per second shown,
         None: what the format has; ``speed``: simulated seconds per second shown. Ctrl-C and a divergence leave a
-        complete film so far. Raises UsageError, FileError, DeviceError, and DivergedError as ``step()``.
+        complete video so far. Raises UsageError, FileError, DeviceError, and DivergedError as ``step()``.
         """
         count = self._steps_of(duration, steps)
         pace(fps, speed)
@@ -406,7 +407,7 @@ class Simulation(Replayable):
     ) -> None:
         """Steps, and writes the run as one HTML file that browsers show without a network (docs/page.md).
 
-        ``duration``, ``steps``: as ``run()``; ``fps``, ``speed``: as ``film()``; ``live``: the page holds no pictures,
+        ``duration``, ``steps``: as ``run()``; ``fps``, ``speed``: as ``film()``; ``live``: the page holds no frames,
         but simulates the run in the browser and compares the bits. Where ``aspic run`` of a built-in scene would write
         it too, the page has that command to copy. Ctrl-C and a divergence leave a complete page so
         far. Raises UsageError, also for a live page of a run in double precision or with inputs; FileError, also where
@@ -458,7 +459,7 @@ _WARNINGS = {
 
 
 def _raise(made: Made) -> None:
-    """What ended steps early, if anything did."""
+    """The exception or divergence that ended steps early, if any."""
     _, found, stopped = made
     if found:
         raise diverged(found)
@@ -467,7 +468,7 @@ def _raise(made: Made) -> None:
 
 
 def _check_size(width: int, height: int) -> None:
-    for value, what in ((width, "the width of a picture"), (height, "the height of a picture")):
+    for value, what in ((width, "the width of an image"), (height, "the height of an image")):
         whole(value, what, least=1, most=2**31 - 1)
 
 

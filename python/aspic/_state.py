@@ -73,7 +73,7 @@ class State:
 
     @property
     def positions(self) -> Floats:
-        """Of the particles, (n, 3) [m]."""
+        """Positions of the particles, (n, 3) [m]."""
         return self.read("positions")
 
     @positions.setter
@@ -82,7 +82,7 @@ class State:
 
     @property
     def velocities(self) -> Floats:
-        """Of the particles, (n, 3) [m/s]."""
+        """Velocities of the particles, (n, 3) [m/s]."""
         return self.read("velocities")
 
     @velocities.setter
@@ -116,7 +116,7 @@ class QuantityDifference(NamedTuple):
     """The largest differences in one quantity."""
 
     absolute: float
-    """Of any component, in the quantity's unit."""
+    """Largest difference of any component, in the quantity's unit."""
     where: int
     """The particle or ball it was found at."""
     ulp: int

@@ -64,14 +64,12 @@ def sweep(
 ) -> Table:
     """Runs a scene with every combination of values, and returns a table with a row for each run.
 
-    What is simulated:
-
     ``scene``: one, or what ``aspic.load()`` takes. ``vary``: keys, each with its values, of which all combinations are
     made, the last key varying fastest; or dicts, a run each. A key is a path of ``--set``, ``"backend"``, or a short
     name of ``aspic sweep``: ``integrator``, ``h``, ``k``, ``c``, ``n``, ``e``, ``mu``. ``backend``, ``precision``: as
     of ``Simulation``; ``duration`` [s] or ``steps``: of each run, neither: the scene's duration.
 
-    What is kept: figures of each run's course (docs/report.md), its hash, and
+    The table keeps the metrics of each run (docs/report.md), its hash, and
 
     ``metrics``: functions by the names of their columns. Each gets the run's ``Trajectory`` and returns a number, a
     word, True, False or None; it is called where the run is made. ``record``, ``every``: as of ``Simulation.run()``;
@@ -83,8 +81,8 @@ def sweep(
 
     ``executor``: None, this process; ``"processes"``, started by spawn; a ``distributed.Client`` or the address of a
     Dask scheduler, ``"tcp://…"``; a submitit executor, for Slurm; any executor like those of ``concurrent.futures``.
-    ``workers``: of ``"processes"``; 0: a process for each processor. ``batch``: most runs that are sent and, if they
-    are small, stepped together; None: 16 to 64. ``threads``: of each task; 0: as many as there are processors here, one
+    ``workers``: of ``"processes"``; 0: a process for each CPU core. ``batch``: most runs that are sent and, if they
+    are small, stepped together; None: 16 to 64. ``threads``: of each task; 0: the number of CPU cores here, one
     elsewhere. ``retries``: how often a task is repeated whose process died; ``submit``: keywords of Dask's
     ``Client.submit()``, such as ``resources``. ``progress``: called with the numbers of runs that are made and wanted.
 
@@ -193,7 +191,7 @@ class _Rows:
         self._tell()
 
     def tasks(self, batch: int | None, workers: int) -> list[Sequence[Differences]]:
-        """What is left, cut into tasks: small runs of one time step and length are in one."""
+        """The remaining runs, cut into tasks: small runs of one time step and length are in one."""
         groups: dict[Any, list[Differences]] = {}
         for alike, point in self._left.values():
             groups.setdefault(alike, []).append(point)
@@ -322,7 +320,7 @@ class _Asked(Trajectory):
 
 
 def _asked(scene: Scene, metrics: Mapping[str, Metric]) -> list[str]:
-    """What metrics ask a trajectory for. Raises UsageError for what cannot be recorded."""
+    """Names that metrics read from a trajectory. Raises UsageError for those that cannot be recorded."""
     if not metrics:
         return []
     import warnings

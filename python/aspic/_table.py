@@ -16,7 +16,7 @@ Path = str | os.PathLike[str]
 
 BEFORE = ("outcome", "reason", "steps")
 AFTER = ("hash", "backend", "precision", "aspic", "scene", "key", "solver", "host", "seconds")
-"""Of these ``solver``, ``host`` and ``seconds`` may be others when a run is made again."""
+"""Columns that may differ between repeats of a run: ``solver``, ``host`` and ``seconds``."""
 
 
 def _cell(value: Any) -> str:
@@ -83,7 +83,7 @@ class Table(Mapping[str, list[Any]]):
         return "\n".join([*lines, repr(self)])
 
     def trajectory(self, run: int) -> Trajectory:
-        """What a run recorded, where trajectories were asked for. Raises UsageError where there is none."""
+        """Trajectory of a run, if it was recorded. Raises UsageError where there is none."""
         path = self._folder.trajectory(self["key"][run]) if self._folder else ""
         if not os.path.exists(path):
             raise UsageError(f"run {run} has no trajectory: aspic.sweep(…, trajectories=True, out=…) keeps them")

@@ -1,4 +1,4 @@
-"""What a run recorded."""
+"""Recorded runs."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Energy(NamedTuple):
 
     @property
     def total(self) -> Any:
-        """Of all three."""
+        """Sum of all three."""
         return self.kinetic + self.elastic + self.gravitational
 
 
@@ -183,7 +183,7 @@ def _load(path: str | os.PathLike[str], *more: str) -> tuple[list[Any], dict[str
 
 
 class Trajectory(Series):
-    """What ``Simulation.run()`` recorded: ``trajectory["energy"].total``, ``trajectory["cube[0].centre-of-mass"]``.
+    """A recording of ``Simulation.run()``: ``trajectory["energy"].total``, ``trajectory["cube[0].centre-of-mass"]``.
 
     Arrays have the samples first: positions (t, n, 3), a centre of mass (t, 3), a speed (t,).
     """
@@ -202,13 +202,13 @@ class Trajectory(Series):
         self.time: NDArray[np.float64] = time
         """[s], (t,)."""
         self.scene = scene
-        """What ran; None of a file that does not say it."""
+        """Backend that ran; None if a file does not have it."""
         self.warnings = list(warnings)
-        """What the simulation had warned of by the end of the run: flat cells, overlaps and others."""
+        """Warnings of the simulation by the end of the run: flat cells, overlaps and others."""
 
     @functools.cached_property
     def model(self) -> dict[str, Any]:
-        """What does not change, by the names of exports (docs/exports.md): ``model["model.springs"]``, ….
+        """Constant arrays, by the names of exports (docs/exports.md): ``model["model.springs"]``, ….
 
         Raises UsageError where the scene is not known.
         """
@@ -278,7 +278,7 @@ class Trajectory(Series):
 
 
 class BatchTrajectory(Series):
-    """What ``Batch.run()`` recorded: ``out["centre-of-mass"]``, ``out["energy"].total``, ``out["cube[0].positions"]``.
+    """A recording of ``Batch.run()``: ``out["centre-of-mass"]``, ``out["energy"].total``, ``out["cube[0].positions"]``.
 
     Arrays have the instance first, then the sample: a centre of mass (n, t, 3), positions (n, t, p, 3). The rows after
     a divergence repeat the last good state.
@@ -287,11 +287,11 @@ class BatchTrajectory(Series):
     def __init__(self, time: Any, diverged: Any, hashes: list[str], series: dict[str, Any]):
         super().__init__(series)
         self.time: NDArray[np.float64] = time
-        """Of each instance's samples, (n, t) [s]: its steps × its h."""
+        """Times of each instance's samples, (n, t) [s]: its steps × its h."""
         self.diverged: NDArray[np.int64] = diverged
         """The step that failed, (n,); 0: the instance did not diverge."""
         self.hash: list[str] = hashes
-        """Of each instance's last state: what ``Simulation.hash`` of its scene alone is."""
+        """Hash of each instance's last state, as ``Simulation.hash`` of its scene alone."""
 
     def __repr__(self) -> str:
         instances, samples = self.time.shape
@@ -340,7 +340,7 @@ _OF_BODIES = ("centre-of-mass", "momentum")
 
 
 class _Sample:
-    """What is read of a state, at most once."""
+    """Quantities of a state, each read at most once."""
 
     def __init__(self, simulation: Readable):
         self._simulation = simulation
@@ -375,7 +375,7 @@ class _Sample:
 
 
 def _of_motion(simulation: Readable) -> list[str]:
-    """What exports hold of it."""
+    """Quantities of exports."""
     core = simulation._core
     left = set() if core.balls() else set(_OF_BALLS)
     if core.add_work(_aspic.ActuatorWork()) is None:

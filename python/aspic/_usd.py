@@ -65,12 +65,12 @@ def identifier(name: str) -> str:
 
 
 def of_particles(which: Any) -> Follow:
-    """Of points that are particles: what those have. The same of springs."""
+    """Attributes of points that are particles. Springs have the same."""
     return lambda sample: sample[which]
 
 
 def of_cells(corners: Any, weights: Any) -> Follow:
-    """Of vertices of a mesh: the mean of the corners of their cells, of whole numbers the nearest corner's."""
+    """Attributes of vertices of a mesh: the mean of the corners of their cells; integers from the nearest corner."""
     import numpy as np
 
     nearest = np.take_along_axis(corners, weights.argmax(axis=1)[:, None], axis=1)[:, 0]

@@ -133,9 +133,9 @@ def test_what_is_wrong_is_said_and_changes_nothing(yard: aspic.Scene) -> None:
         ((worm(), {"palette": {1: "muscle", 2: "fatt"}}), 'material "fatt".*did you mean \'fat\''),
         ((worm(), {"material": "muscel"}), "did you mean 'muscle'"),
         ((apart, {"material": "fat"}), 'pieces = "largest"'),
-        ((worm() * 0.5, {"material": "fat"}), "cells: it must be an array of whole numbers"),
+        ((worm() * 0.5, {"material": "fat"}), "cells: it must be an array of integers"),
         ((worm()[0], {"material": "fat"}), "three axes"),
-        ((np.zeros((2, 2, 2), int), {"material": "fat"}), "none of its cells is full"),
+        ((np.zeros((2, 2, 2), int), {"material": "fat"}), "all its cells are empty"),
         ((worm(), {"material": "fat", "size": -1}), "'voxels.size' is out of range"),
         ((worm(), {"material": "fat", "siez": 1}), "did you mean 'size'"),
     ):

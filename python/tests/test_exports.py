@@ -106,7 +106,7 @@ def test_a_series_for_paraview_and_for_blender(motion: aspic.Trajectory, scene: 
         if line[:2] == "f "
     ]
     assert np.array_equal(cache[:, np.array(corners) - 1], motion["positions"][:, motion.model["model.skin"]])
-    with pytest.raises(aspic.UsageError, match="equally far apart"):
+    with pytest.raises(aspic.UsageError, match="samples at equal intervals"):
         uneven = aspic.Trajectory(motion.steps**2, motion.time, dict(motion), motion.scene)
         uneven.export("uneven.pc2")
     assert not list(pathlib.Path().glob("uneven*")) and not list(pathlib.Path().glob(".aspic*"))

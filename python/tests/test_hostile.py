@@ -398,7 +398,7 @@ def test_pages_have_a_largest_rate(scene: aspic.Scene) -> None:
         (lambda sim: sim.step(2.0), "whole number"),
         (lambda sim: sim.step(True), "whole number"),
         (lambda sim: sim.run(1e300), "number of steps"),
-        (lambda sim: sim.render("64", 64), "width of a picture"),
+        (lambda sim: sim.render("64", 64), "width of an image"),
         (lambda sim: aspic.Simulation(sim.scene, None), "backend is a word"),
         (lambda sim: setattr(sim, "pinned", {1, 2}), "list or an array"),
         (lambda sim: setattr(sim, "pinned", "top"), "scene's key"),

@@ -28,7 +28,7 @@ def test_a_picture_is_an_array_that_notebooks_show(sim: aspic.Simulation) -> Non
     assert picture[10]._repr_png_() is None and "96 × 54" in repr(picture) and repr(picture[0, 0]).startswith("Picture")
     part = picture[::2, 5:40]
     assert np.array_equal(read_png(part.png()), part)
-    with pytest.raises(ValueError, match="no picture"):
+    with pytest.raises(ValueError, match="not an image"):
         picture[0].png()
     assert type(picture / 2) is np.ndarray and isinstance(picture.sum(), np.integer)
 

@@ -43,9 +43,9 @@ def test_bodies_deep_within_each_other_are_named_once() -> None:
     scene.update({f"cube[{i}].particles-per-edge": 6 for i in range(3)})
     # More than a spacing a step: the lower face is in the middle of the other cube at the first look.
     scene.update({"cube[1].position": [0.5, 63, 0.5], "cube[1].velocity": [0, -600, 0], "cube[2].position": [30, 3, 0]})
-    with pytest.warns(aspic.RunWarning, match=r"may flatten cells for ever: cube\[1\] may come at 60\d m/s"):
+    with pytest.warns(aspic.RunWarning, match=r"may flatten cells permanently: cube\[1\] may arrive at 60\d m/s"):
         sim = aspic.Simulation(scene, "cpu")
-    with pytest.warns(aspic.OverlapWarning, match="so deep within each other at step 100 ") as told:
+    with pytest.warns(aspic.OverlapWarning, match="interpenetrate beyond the contact range at step 100 ") as told:
         sim.run(0.3)
     assert [each.category for each in told].count(aspic.OverlapWarning) == 1
 
@@ -55,7 +55,7 @@ def test_what_does_not_hold_is_said_before_the_first_step_and_when_it_comes_abou
     scene.update({"cube[0].particles-per-edge": 4, "cube[0].position": [0, -20, 0]})
     with pytest.warns(aspic.RunWarning, match=r"within terrain at the start: cube\[0\] by 2\d m.* J in springs"):
         sim = aspic.Simulation(scene, "cpu")
-    with pytest.warns(aspic.RunWarning, match=r"cells are flat or inside out at step 100 .*: 27 of cube\[0\]"):
+    with pytest.warns(aspic.RunWarning, match=r"cells are flat or inverted at step 100 .*: 27 of cube\[0\]"):
         sim.run(0.3)
 
 
@@ -68,7 +68,7 @@ def test_energy_is_judged_by_what_inputs_can_add() -> None:
         sim.run(0.25)
     with pytest.warns(aspic.StepWarning, match="may not be stable"):
         sim = aspic.Simulation(aspic.load("worm", {"simulation.timestep": 0.005}), "cpu")
-    with pytest.warns(aspic.RunWarning, match="J above that of step 0 plus the most that actuators"):
+    with pytest.warns(aspic.RunWarning, match="J above that of step 0 plus an upper bound of the work of actuators"):
         sim.run(0.1)
 
 
