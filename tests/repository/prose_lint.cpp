@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -48,7 +49,7 @@ bool is_letter(char c) {
 
 /// A line without code, link targets, images and labels.
 std::string prose_of(const std::string& line) {
-  static const std::regex code("`[^`]*`"), target(R"(\]\([^)]*\))"), label(R"((^|[^*])\*[^* ][^*]*\*)");
+  static const std::regex code("`+[^`]*`+"), target(R"(\]\([^)]*\))"), label(R"((^|[^*])\*[^* ][^*]*\*)");
   std::string text = std::regex_replace(line, code, "`");
   text = std::regex_replace(text, target, "]");
   return std::regex_replace(text, label, "$1`");
@@ -97,6 +98,48 @@ int length_of(const std::string& sentence) {
              std::ranges::any_of(word, [](char c) { return is_letter(c) || c == '`'; });
   }
   return count;
+}
+
+/// String literals of a file with their first lines; adjacent ones are one.
+std::vector<std::pair<int, std::string>> literals_of(std::string_view code, bool python) {
+  std::vector<std::pair<int, std::string>> found;
+  bool adjacent = false;
+  int line = 1;
+  for (std::size_t i = 0; i < code.size(); ++i) {
+    const char c = code[i];
+    line += c == '\n';
+    if (code.substr(i).starts_with(python ? "#" : "//")) {
+      i = std::min(code.find('\n', i), code.size()) - 1;
+      continue;
+    }
+    const bool raw = !python && code.substr(i, 2) == "R\"";
+    const bool number = c == '\'' && !python && i > 0 && is_letter(code[i - 1]);  // 1'000
+    if (!raw && (number || (c != '"' && c != '\''))) {
+      adjacent = adjacent && std::isspace(static_cast<unsigned char>(c));
+      continue;
+    }
+    std::string close(1, c);
+    std::size_t start = i + 1;
+    if (raw) {
+      start = code.find('(', i) + 1;
+      close = ')' + std::string(code.substr(i + 2, start - i - 3)) + '"';
+    } else if (python && code.substr(i, 3) == std::string(3, c)) {
+      close = std::string(3, c);
+      start = i + 3;
+    }
+    std::size_t end = start;
+    while (end < code.size() && !code.substr(end).starts_with(close))
+      end += !raw && code[end] == '\\' ? 2 : 1;
+    const std::string text(code.substr(start, end - start));
+    if (adjacent)
+      found.back().second += text;
+    else
+      found.emplace_back(line, c == '\'' && !python ? "" : text);
+    adjacent = true;
+    line += static_cast<int>(std::ranges::count(text, '\n'));
+    i = end + close.size() - 1;
+  }
+  return found;
 }
 
 class Page {
@@ -183,6 +226,24 @@ std::vector<Offence> lint_prose(std::string_view text, Readers readers) {
       page.prose(number, line);
   }
   return page.take();
+}
+
+std::vector<Offence> lint_strings(std::string_view code, bool python) {
+  std::vector<Offence> found;
+  for (const auto& [first, literal] : literals_of(code, python)) {
+    static const std::regex escape(R"(\\n|\n)"), quote(R"(\\(.))");
+    int line = first;
+    for (std::sregex_token_iterator at(literal.begin(), literal.end(), escape, -1), end; at != end; ++at) {
+      const std::string text = std::regex_replace(at->str(), quote, "$1");
+      if (const auto start = text.find_first_not_of(' '); text.find(' ', start) != std::string::npos) {
+        Page page(Readers::users);
+        page.prose(line, text);
+        std::ranges::move(page.take(), std::back_inserter(found));
+      }
+      line += at->second != literal.end() && *at->second == '\n';
+    }
+  }
+  return found;
 }
 
 std::vector<std::pair<std::filesystem::path, Readers>> prose_pages(const std::filesystem::path& root) {

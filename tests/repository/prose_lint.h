@@ -1,5 +1,5 @@
 #pragma once
-// A lint of the prose of pages: the rules of CONTRIBUTING.md that a program can check.
+// A lint of the prose of pages and messages: the rules of CONTRIBUTING.md that a program can check.
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -16,6 +16,10 @@ enum class Readers { users, developers };
 /// Of, Refused or So. length: a sentence of more than 30 words; symbols do not count. bracket: an unquoted [,
 /// ], { or } in a shell command. output: a name that two commands of the page write.
 std::vector<Offence> lint_prose(std::string_view page, Readers readers);
+
+/// Offences of the string literals with a space of a C++ or Python file, which users see as messages, help,
+/// tooltips and docstrings. The rules are those of user pages, line by line.
+std::vector<Offence> lint_strings(std::string_view code, bool python = false);
 
 /// README.md, CONTRIBUTING.md and all pages of docs, as paths below `root`, with their readers: developers
 /// for the pages that docs/README.md lists under *Developers*.

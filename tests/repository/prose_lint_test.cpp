@@ -68,6 +68,36 @@ TEST(ProseLint, FindsOutputsOfTheSameName) {
       IsEmpty());
 }
 
+TEST(ProseLint, FindsOffencesInStringLiterals) {
+  const auto lines_of = [](std::string_view code, bool python = false) {
+    std::vector<int> lines;
+    for (const Offence& offence : lint_strings(code, python)) lines.push_back(offence.line);
+    return lines;
+  };
+  const std::string long_one = repeated("word", 31);
+  EXPECT_THAT(lines_of("f(1'000,\n  \"a \\\"film\\\"\"\n  \" here\");\n\"goes \"  // x\n\"on\";\n"),
+              ElementsAre(2, 4));
+  EXPECT_THAT(lines_of("R\"x(Done.\nWhat (\"is\") this)x\", \"Step.\\nOf these\""), ElementsAre(2, 2));
+  EXPECT_THAT(lines_of("f(\"" + long_one + "\");"), ElementsAre(1));
+  EXPECT_THAT(lines_of("\"film\" '\"'  // \"a film\"\n\"a\", \"film\""), IsEmpty());
+  EXPECT_THAT(lines_of("# a film\nf('a film')\n\"\"\"A \"step\".\n\n  So it is.\n\"\"\"\n", true),
+              ElementsAre(2, 5));
+}
+
+TEST(ProseLint, StringLiteralsAreClean) {
+  int files = 0;
+  for (const std::filesystem::path& file : written_files(ASPIC_SOURCE_DIR)) {
+    const std::string path = file.generic_string();
+    const bool python = path.starts_with("python/aspic/") && file.extension() == ".py";
+    if (!python && !(path.starts_with("src/") && (file.extension() == ".cpp" || file.extension() == ".h")))
+      continue;
+    ++files;
+    for (const Offence& offence : lint_strings(contents(ASPIC_SOURCE_DIR / file), python))
+      ADD_FAILURE() << path << ":" << offence.line << ": " << offence.rule << " (" << offence.text << ")";
+  }
+  EXPECT_GE(files, 500);
+}
+
 TEST(ProseLint, PagesAreClean) {
   const auto pages = prose_pages(ASPIC_SOURCE_DIR);
   EXPECT_GE(pages.size(), 30u);
