@@ -66,7 +66,7 @@ Json row_json(const Measurement& m) {
   object["seconds"] = seconds;
   object["processor_seconds"] = processor_seconds;
   // null: this backend does not say; a device's passes are told apart by its time stamps.
-  Json passes;
+  Json passes = m.passes.empty() ? Json() : Json::array();
   for (const gl::PassTime& pass : m.passes)
     passes.push_back(
         {{"name", pass.name}, {"milliseconds", pass.milliseconds}, {"dispatches", pass.dispatches}});

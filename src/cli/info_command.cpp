@@ -89,7 +89,7 @@ Status execute(const InfoOptions& options) {
     for (const gl::EglDevice& device : devices)
       list.push_back({{"index", device.index}, {"name", device.name}, {"software", device.software}});
     for (const BackendRow& row : backends()) {
-      Json precisions;
+      Json precisions = Json::array();
       for (const Precision precision : row.precisions) precisions.push_back(name_of(precision));
       rows.push_back({{"name", row.name}, {"summary", row.summary}, {"precisions", precisions}});
     }

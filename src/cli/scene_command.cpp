@@ -288,7 +288,8 @@ Status execute(const SceneCheckOptions& options) {
     if (capacity)
       for (const CubeCapacity& cube : capacity->cubes)
         largest[std::string(cube.force_path)] = cube.particles_per_edge;
-    Json bytes, steps;
+    Json bytes = backend_bytes.empty() ? Json() : Json::object();
+    Json steps = limits.empty() ? Json() : Json::object();
     for (const BackendBytes& backend : backend_bytes)
       bytes[backend.backend] = backend.bytes ? Json(*backend.bytes) : Json();
     for (std::size_t i = 0; i < limits.size(); ++i) {

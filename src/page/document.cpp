@@ -46,7 +46,7 @@ std::string escaped(std::string_view text) {
 
 /// The page's shaders by name, the light of pictures (shaders/render) among them.
 Json shaders() {
-  Json texts;
+  Json texts = Json::object();
   for (const EmbeddedFile& file : page_files())
     if (!file.name.ends_with(".js") && !file.name.ends_with(".css") && !file.name.ends_with(".html"))
       texts[std::string(file.name)] = file.text;

@@ -100,7 +100,7 @@ Json terrain_facts(const Terrain& terrain) {
 }
 
 Json ranges_of(const Model& model, const ViewSettings& view) {
-  Json ranges;
+  Json ranges = Json::object();
   for (const auto& [colour, name] : view_colours) {
     if (!has_scale(colour) || (colour == ViewColour::actuation && model.actuation.empty())) continue;
     // The scene's own ends are of the colour that it chose.
@@ -202,7 +202,7 @@ Json view_facts(const Scene& scene) {
   const bool own = view.scale.map != ScaleMap::automatic;
   facts["scale"] = map_text(own ? view.scale.map : ScaleMap::violet_yellow);
   facts["signedScale"] = map_text(own ? view.scale.map : ScaleMap::blue_red);
-  Json types;
+  Json types = Json::object();  // a null value that becomes one aborts without memory
   for (const SpringType type : {SpringType::structural, SpringType::shear, SpringType::bending})
     types[name_of(type)] = spring_colour(type);
   facts["springColours"] = types;

@@ -195,7 +195,7 @@ TEST_F(Pointer, FollowingEndsWithWhatIsFollowed) {
   EXPECT_FALSE(follow().has_value());
   frames_until([&] { return !simulation().rebuild().changing() && simulation().model().bodies.size() == 1; });
   ASSERT_TRUE(app().messages.notice().has_value());
-  EXPECT_NE(app().messages.notice()->text.find("no cube[1] any more"), std::string::npos);
+  EXPECT_NE(app().messages.notice()->text.find("no longer has cube[1]"), std::string::npos);
   app().scene.undo();
   EXPECT_EQ(follow(), "cube[1]");
   frames(2);

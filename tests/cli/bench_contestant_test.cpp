@@ -86,7 +86,7 @@ TEST(BenchCalibration, WarnsOfShortRepeats) {
   EXPECT_EQ(steps_warning(m, "--seconds"), "");
   m.steps = 1;
   EXPECT_THAT(steps_warning(m, "--seconds"), HasSubstr("gpu:lattice, 100 per edge"));
-  EXPECT_THAT(steps_warning(m, "--seconds"), HasSubstr("has 1 step,"));
+  EXPECT_THAT(steps_warning(m, "--seconds"), HasSubstr("has 1 step;"));
   EXPECT_THAT(steps_warning(m, "--duration"), HasSubstr("Raise --duration."));
   m.repeats.clear();
   EXPECT_EQ(steps_warning(m, "--seconds"), "");
