@@ -73,11 +73,12 @@ Trial<float> AssembledSystem::evaluate() {
     const std::size_t at = place(i, i);
     for (std::size_t r = 0; r < 3; ++r) matrix_.valuePtr()[at + r * row_size_[i] + r] = dynamics_.mass(i);
   }
+  const auto classes = dynamics_.classes_at(1.0);
   for (std::size_t n = 0; n < springs_.size(); ++n) {
     const Spring& spring = springs_[n];
     const Vector<float> v = trial_.col(spring.a) - trial_.col(spring.b);
     const Vector<float> e = (s_->x.col(spring.a) - s_->x.col(spring.b)) + h_ * v;
-    const auto [on_a, H] = physics::linearised<float>(dynamics_.spring_class(spring), h_, e, v);
+    const auto [on_a, H] = physics::linearized<float>(classes[spring.spring_class], h_, e, v);
     f.col(spring.a) += on_a;
     f.col(spring.b) -= on_a;
     add(spring, H, n);

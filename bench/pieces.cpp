@@ -38,9 +38,10 @@ struct Body {
   Model model;
   parallel::Particles at, next;
   parallel::FloatArray mass, inverse_mass;
+  physics::BodyForce<float> body_force;
   alignas(64) float f[3][piece + parallel::slice];
 
-  explicit Body(const ModelSettings& settings) : model(*build_model(settings)) {
+  explicit Body(const ModelSettings& settings) : model(*build_model(settings)), body_force(model) {
     const std::size_t count = model.particle_count(), margin = count;
     at = parallel::Particles(count, margin);
     next = parallel::Particles(count, margin);
@@ -54,7 +55,7 @@ struct Body {
       inverse_mass[i] = static_cast<float>(model.inverse_mass[i]);
     }
   }
-  parallel::ForceInput input() const { return {&at, mass.data(), {0.0f, -9.8f, 0.0f}}; }
+  parallel::ForceInput input() const { return {&at, mass.data(), &body_force}; }
   parallel::Forces forces() { return {{f[0], f[1], f[2]}}; }
 
   /// Calls act(range) for every piece.
@@ -83,12 +84,11 @@ void count_items(State& state, const char* name, std::size_t per_iteration) {
   state.counters[name] = Counter(static_cast<double>(per_iteration), Counter::kIsIterationInvariantRate);
 }
 
-void lattice_forces(State& state, std::int64_t target, int n, Arithmetic arithmetic) {
+void lattice_forces(State& state, std::int64_t target, int n) {
   Body cube(cube_settings(n));
-  const parallel::Lattice lattice(cube.model, cube.model.bodies[0]);
+  const parallel::LatticeStencil lattice(cube.model, cube.model.bodies[0]);
   parallel::Sweep sweep(lattice.plane_size(), lattice.row_size());
   parallel::ForceInput input = cube.input();
-  input.arithmetic = arithmetic;
   const Only only(target);
   while (state.KeepRunning()) {
     parallel::begin_plane(lattice, input, sweep, 0);
@@ -226,11 +226,8 @@ void register_all() {
     const auto add = [&](const std::string& name, auto run) {
       benchmark::RegisterBenchmark(fmt::format("{}/{}", name, set).c_str(), run);
     };
-    for (const Arithmetic arithmetic : {Arithmetic::exact, Arithmetic::fast}) {
-      for (const int n : {10, 20, 40, 100, 200})
-        add(fmt::format("lattice_forces/{}/{}", name_of(arithmetic), n),
-            [=](State& s) { lattice_forces(s, target, n, arithmetic); });
-    }
+    for (const int n : {10, 20, 40, 100, 200})
+      add(fmt::format("lattice_forces/{}", n), [=](State& s) { lattice_forces(s, target, n); });
     add("listed_forces", [=](State& s) { listed_forces(s, target); });
     add("move", [=](State& s) { move(s, target); });
     add("box", [=](State& s) { box(s, target); });

@@ -13,7 +13,7 @@
 #include "aspic/scene.h"
 #include "checked.h"
 #include "gpu/context.h"
-#include "playback/simulation.h"
+#include "playback/playback_session.h"
 #include "run/backends.h"
 #include "run/window_host.h"
 #include "scene/parameters.h"
@@ -59,7 +59,7 @@ void solver(benchmark::State& state, const char* backend, const char* integrator
 /// As a slider does: the editor takes the value, the simulation the scene.
 void window(benchmark::State& state, const char* backend, const char* integrator, bool rebuilt) {
   const Scene start = scene(integrator);
-  auto simulation = checked(Simulation::create(context(), start, *find_backend(backend)));
+  auto simulation = checked(PlaybackSession::create(context(), start, *find_backend(backend)));
   auto editor = checked(app::SceneEditor::open(
       "cube-plane", {"cube[0].particles-per-edge=40", fmt::format("simulation.integrator={}", integrator)}));
   const Parameter& stiffness = *find_parameter("cube[].structural.stiffness");

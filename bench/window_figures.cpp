@@ -78,7 +78,7 @@ Figures measure(const Case& c, double seconds) {
   auto app = app::App::create((*window)->context(), options, 1.0, (*window)->services());
   if (!app) fail(app.error().message());
   (*window)->set_receiver(app->get());
-  Simulation& simulation = (*app)->simulation;
+  PlaybackSession& simulation = (*app)->simulation;
   simulation.pacer().set_pace(Pace::real_time);
   simulation.set_running(true);
   Figures figures;

@@ -43,7 +43,7 @@ struct BackendChoice {
   friend bool operator==(const BackendChoice&, const BackendChoice&) = default;
 };
 
-/// A backend with its options after colons: "gpu:per-spring", "reference:double", "cpu:fast". What the text
+/// A backend with its options after colons: "gpu:per-spring", "reference:double", "gpu:fast". What the text
 /// leaves open is as in `asked`, where the backend has it. Error (usage): an unknown word.
 ASPIC_API Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& asked = {});
 
@@ -60,7 +60,7 @@ struct Backend {
   Arithmetic arithmetic = Arithmetic::exact;  ///< as chosen
   std::string reason;                         ///< why `auto` took it; empty if it was named
 
-  /// "gpu:gather", "cpu:fast", "reference:double", "reference".
+  /// "gpu:gather", "gpu:fast", "reference:double", "reference".
   ASPIC_API std::string variant() const;
 };
 

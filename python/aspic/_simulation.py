@@ -93,7 +93,7 @@ class Simulation(Replayable):
         simulated second.
 
         ``scene``: one, or what ``aspic.load()`` takes; ``backend``: ``"auto"`` (a hardware GPU, else ``cpu``),
-        ``"gpu"``, ``"cpu"``, ``"reference"``, with options after colons (``"gpu:gather"``, ``"cpu:fast"``);
+        ``"gpu"``, ``"cpu"``, ``"reference"``, with options after colons (``"gpu:gather"``, ``"gpu:fast"``);
         ``precision``: only ``reference`` has ``"double"``; ``threads``: of ``cpu``, 1 … 1024, 0: as many as are
         worthwhile. Raises UsageError for words and options that are none; SceneError where the model is larger than
         memory or the device; DeviceError without a usable device, which says what is missing.

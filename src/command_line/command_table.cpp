@@ -75,13 +75,13 @@ void add_overrides(CLI::App* c, std::vector<std::string>& overrides) {
 
 void add_arithmetic(CLI::App* c, RawOptions& raw) {
   add(c, "--arithmetic", "NAME", raw.arithmetic,
-      "exact: the reference's bits, or fast: other last bits (gpu and cpu)");
+      "exact: the reference's bits, or fast: other last bits (gpu only)");
   add(c, "--threads", "N", raw.threads,
       "threads of the cpu backend, 1 to 1024; default: by size of the scene", few);
 }
 
 void add_backend(CLI::App* c, RawOptions& raw) {
-  add(c, "--backend", "NAME", raw.backend, backend_words() + "; with options, gpu:gather, cpu:fast");
+  add(c, "--backend", "NAME", raw.backend, backend_words() + "; with options, gpu:gather, gpu:fast");
   add(c, "--precision", "NAME", raw.precision, "single or double (reference only); default single");
   add(c, "--force-path", "NAME", raw.force_path, force_path_words() + " (gpu only)");
   add_arithmetic(c, raw);
@@ -160,7 +160,7 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
       add_command(app, "compare", "Run two backends side by side and compare every step", compare_examples);
   add(c, "scene", "SCENE", compare.scene, "scene file or built-in name")->required();
   c->add_option("--backends", raw.backends,
-                "the two backends, options after colons: gpu:per-spring,reference:double or cpu:fast,cpu")
+                "the two backends, options after colons: gpu:per-spring,reference:double or gpu:fast,gpu")
       ->delimiter(',')
       ->expected(1, 100)
       ->type_name("A,B")
@@ -181,7 +181,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
                             bench_examples);
   add(c, "scene", "SCENE", bench.scene, "scene file or built-in name");
   add(c, "--backend", "NAME", raw.bench_backends,
-      "auto, gpu, gpu:gather, gpu:fast, cpu, cpu:fast, reference, reference:double")
+      "auto, gpu, gpu:gather, gpu:fast, cpu, reference, reference:double")
       ->delimiter(',');
   add(c, "--force-path", "NAME", raw.bench_force_paths, "force path of gpu backends without one")
       ->delimiter(',');

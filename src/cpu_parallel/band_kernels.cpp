@@ -14,9 +14,8 @@ namespace aspic::parallel::HWY_NAMESPACE {
 namespace {
 
 /// What is added to an upper end where there is no spring, or one of no length: it changes no sum.
-template <Arithmetic arithmetic>
 HWY_INLINE Float no_force() {
-  return hn::Set(tag, arithmetic == Arithmetic::fast ? 0.0f : -0.0f);
+  return hn::Set(tag, -0.0f);
 }
 
 /// Where a sweep stands, for one slice of particles.
@@ -63,7 +62,7 @@ HWY_INLINE Spring spring_of(const Tables& all, const Band& band, std::size_t lan
 }
 
 /// Evaluates `size` bands of some lanes of a slice, from the farthest neighbours on: bands[size − 1] first.
-template <Arithmetic arithmetic, std::size_t size>
+template <std::size_t size>
 HWY_INLINE void evaluate(const Tables& all, const Chunk& at, const Band* bands, const SliceAt& own,
                          std::size_t lane, const Forces& sums, const Forces& pulls, std::size_t number) {
   const std::size_t p = own.particle + lane;
@@ -77,14 +76,12 @@ HWY_INLINE void evaluate(const Tables& all, const Chunk& at, const Band* bands, 
     of[i] = spring_of(all, bands[i], lane);
   }
   Float factor[size], length[size];
-  evaluate_springs<arithmetic>(e, dv, of, factor, length);
-  const Float none = no_force<arithmetic>();
+  evaluate_springs(e, dv, of, factor, length);
+  const Float none = no_force();
   for (std::size_t i = size; i-- > 0;) {
     const Mask present = mask_of(bands[i].present, lane);
     const Mask pulling = hn::And(present, hn::Gt(length[i], hn::Zero(tag)));
-    const Vector force = arithmetic == Arithmetic::fast
-                             ? hn::IfThenElseZero(present, factor[i]) * e[i]
-                             : chosen(pulling, factor[i] * e[i], {none, none, none});
+    const Vector force = chosen(pulling, factor[i] * e[i], {none, none, none});
     store(force, pulls, (number + i) * slice + lane);
     const std::size_t upper = own.sum + lane + static_cast<std::size_t>(bands[i].step);
     store(load(sums, upper) + force, sums, upper);
@@ -93,7 +90,6 @@ HWY_INLINE void evaluate(const Tables& all, const Chunk& at, const Band* bands, 
 
 /// All bands from `least` on of a slice, a vector of its particles after the other and of each the farthest
 /// neighbours first: so a particle takes its lower neighbours in ascending order.
-template <Arithmetic arithmetic>
 HWY_INLINE void evaluate_slice(const Tables& all, const Chunk& at, std::span<const Band> bands,
                                std::size_t least, const SliceAt& own, const Forces& sums,
                                const Forces& pulls) {
@@ -101,37 +97,33 @@ HWY_INLINE void evaluate_slice(const Tables& all, const Chunk& at, std::span<con
   for (std::size_t lane = 0; lane < slice; lane += lanes) {
     std::size_t end = bands.size();
     for (; end >= least + together; end -= together)
-      evaluate<arithmetic, together>(all, at, bands.data() + end - together, own, lane, sums, pulls,
-                                     end - together);
-    for (; end > least; --end)
-      evaluate<arithmetic, 1>(all, at, bands.data() + end - 1, own, lane, sums, pulls, end - 1);
+      evaluate<together>(all, at, bands.data() + end - together, own, lane, sums, pulls, end - together);
+    for (; end > least; --end) evaluate<1>(all, at, bands.data() + end - 1, own, lane, sums, pulls, end - 1);
   }
 }
 
-template <Arithmetic arithmetic>
-void forces_in(const Bands& all, const ForceInput& input, BandSweep& sweep, std::size_t count,
-               const Forces& forces) {
+void BandForces(const Bands& all, const ForceInput& input, BandSweep& sweep, std::size_t count,
+                const Forces& forces) {
   const Forces sums = sweep.sums(), pulls = sweep.pulls();
   const Tables tables(all);
   const Chunk at(*input.at);
   for (std::size_t n = 0; n < count; n += slice) {
     const std::span<const Band> bands = all.bands((sweep.at() + n) / slice);
-    evaluate_slice<arithmetic>(tables, at, bands, 0, {all.first() + sweep.at() + n, n}, sums, pulls);
+    evaluate_slice(tables, at, bands, 0, {all.first() + sweep.at() + n, n}, sums, pulls);
     for (std::size_t lane = 0; lane < slice; lane += lanes) {
       Vector f = load(sums, n + lane);
       for (std::size_t b = 0; b < bands.size(); ++b) {
         const Vector less = f - load(pulls, b * slice + lane);
-        // In exact arithmetic absent springs pull −0 here, which is not +0.
-        f = arithmetic == Arithmetic::fast ? less : chosen(mask_of(bands[b].present, lane), less, f);
+        // Absent springs pull −0 here, which is not +0.
+        f = chosen(mask_of(bands[b].present, lane), less, f);
       }
       store(f, forces, n + lane);
     }
   }
 }
 
-template <Arithmetic arithmetic>
-void ghosts_in(const Bands& all, const ForceInput& input, BandSweep& sweep, std::size_t count,
-               std::size_t target) {
+void BandGhosts(const Bands& all, const ForceInput& input, BandSweep& sweep, std::size_t count,
+                std::size_t target) {
   const Tables tables(all);
   const Chunk at(*input.at);
   for (std::size_t n = 0; n < count; n += slice) {
@@ -140,23 +132,8 @@ void ghosts_in(const Bands& all, const ForceInput& input, BandSweep& sweep, std:
     std::size_t least = 0;
     while (least < bands.size() && local + slice + static_cast<std::size_t>(bands[least].step) <= target)
       ++least;
-    evaluate_slice<arithmetic>(tables, at, bands, least, {all.first() + local, n}, sweep.sums(),
-                               sweep.pulls());
+    evaluate_slice(tables, at, bands, least, {all.first() + local, n}, sweep.sums(), sweep.pulls());
   }
-}
-
-void BandForces(const Bands& bands, const ForceInput& input, BandSweep& sweep, std::size_t count,
-                const Forces& forces) {
-  if (input.arithmetic == Arithmetic::fast)
-    return forces_in<Arithmetic::fast>(bands, input, sweep, count, forces);
-  forces_in<Arithmetic::exact>(bands, input, sweep, count, forces);
-}
-
-void BandGhosts(const Bands& bands, const ForceInput& input, BandSweep& sweep, std::size_t count,
-                std::size_t target) {
-  if (input.arithmetic == Arithmetic::fast)
-    return ghosts_in<Arithmetic::fast>(bands, input, sweep, count, target);
-  ghosts_in<Arithmetic::exact>(bands, input, sweep, count, target);
 }
 
 /// The weight of `count` particles from `first` of the body on, as far as it goes, into the sums at `to`.

@@ -40,7 +40,7 @@ void fill(FloatArray& to, const Runs<double>& from) {
 
 class CpuSolver final : public Solver {
  public:
-  CpuSolver(SharedModel model, std::shared_ptr<Workers> workers, Arithmetic arithmetic)
+  CpuSolver(SharedModel model, std::shared_ptr<Workers> workers)
       : model_(std::move(model)),
         reports_solves_(row_of(model_->simulation.integrator).traits.reports_solves),
         dynamics_(*model_),
@@ -66,8 +66,7 @@ class CpuSolver final : public Solver {
     fill(mass_, model_->mass);
     fill(inverse_mass_, model_->inverse_mass);
     lengths_.emplace(*model_, springs_);
-    steps_ = make_steps(
-        {model_, dynamics_, springs_, *lengths_, mass_, inverse_mass_, margin, arithmetic, *workers_});
+    steps_ = make_steps({model_, dynamics_, springs_, *lengths_, mass_, inverse_mass_, margin, *workers_});
     bytes_ = sizeof(*this) + heap_bytes();
     const State start = initial_state(*model_, Precision::single);
     (void)CpuSolver::take_state(view_of(start), start.step);
@@ -75,9 +74,8 @@ class CpuSolver final : public Solver {
 
   std::string_view backend() const override { return "cpu"; }
   std::string description() const override {
-    return fmt::format("cpu, {} thread{}, {}, single precision{}", workers_->threads(),
-                       workers_->threads() == 1 ? "" : "s", instruction_set(),
-                       steps_->arithmetic() == Arithmetic::fast ? ", fast arithmetic" : "");
+    return fmt::format("cpu, {} thread{}, {}, single precision", workers_->threads(),
+                       workers_->threads() == 1 ? "" : "s", instruction_set());
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return *model_; }
@@ -311,8 +309,7 @@ Result<std::unique_ptr<Solver>> make_cpu_solver(SharedModel model, const CpuOpti
                                  ? options.threads
                                  : static_cast<unsigned>(std::clamp<std::size_t>(worth, 1, available));
     auto workers = options.workers ? options.workers : std::make_shared<parallel::Workers>(threads);
-    return std::unique_ptr<Solver>(
-        std::make_unique<parallel::CpuSolver>(model, std::move(workers), options.arithmetic));
+    return std::unique_ptr<Solver>(std::make_unique<parallel::CpuSolver>(model, std::move(workers)));
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::scene_rejected,
                 "not enough memory for the cpu solver of {} particles: use fewer particles-per-edge",

@@ -1,5 +1,5 @@
 #pragma once
-// The parallel CPU solver: threads and vector instructions, in exact arithmetic with the bits of the
+// The parallel CPU solver: threads and vector instructions, with the bits of the
 // reference for any number of threads and any instruction set.
 #include <memory>
 #include <utility>
@@ -17,9 +17,6 @@ struct CpuOptions {
   /// Threads, 1 to 1024; 0: as many as there are processors (or ASPIC_THREADS), fewer for scenes too small
   /// for them.
   unsigned threads = 0;
-  /// Of the springs' forces; the rest, and implicit Euler, is exact. Fast forces are the same for any number
-  /// of threads.
-  Arithmetic arithmetic = Arithmetic::exact;
   /// Others' threads; null: the solver starts some.
   std::shared_ptr<parallel::Workers> workers = nullptr;
 };

@@ -61,7 +61,6 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
       lengths_(parts.lengths),
       mass_(parts.mass),
       inverse_mass_(parts.inverse_mass),
-      arithmetic_(parts.arithmetic),
       workers_(parts.workers) {
   std::size_t plane_size = 0, row_size = 0, reach = 0, most = 0;
   for (std::size_t body = 0; body < springs_.size(); ++body) {
@@ -190,7 +189,7 @@ bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
 void ExplicitSteps::run(Task& task, const StageMove& stage) {
   alignas(64) float f[3][piece_size + slice];
   const Forces forces = {{f[0], f[1], f[2]}};
-  const ForceInput input = {stage.at, mass_.data(), &dynamics_.body_force(), arithmetic_};
+  const ForceInput input = {stage.at, mass_.data(), &dynamics_.body_force()};
   const bool near = near_terrain(*model_, task.box);
   if (stage.at == stage.start) find_resting(task, stage);
   if (in_contact_) task.kept = first_contact_particle(task);

@@ -24,7 +24,6 @@ class ExplicitSteps final : public Steps {
   /// The next step looks itself.
   void forget() override { known_ = false; }
   void constants_changed() override;
-  Arithmetic arithmetic() const override { return arithmetic_; }
   std::uint64_t bytes() const override;
 
  private:
@@ -69,7 +68,6 @@ class ExplicitSteps final : public Steps {
   const std::vector<Springs>& springs_;
   MovingLengths& lengths_;
   const FloatArray &mass_, &inverse_mass_;
-  Arithmetic arithmetic_;
   Workers& workers_;
   std::vector<Task> tasks_;
   std::vector<Sweep> sweeps_;           // by thread

@@ -14,8 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace aspic::parallel::HWY_NAMESPACE {
 namespace {
 
-template <Arithmetic arithmetic>
-void listed_forces_in(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces) {
+void ListedForces(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces) {
   const hn::RebindToSigned<Tag> index_tag;
   const Particles& at = *input.at;
   for (std::size_t n = 0; n < range.count; n += lanes) {
@@ -30,7 +29,7 @@ void listed_forces_in(const SpringLists& lists, const ForceInput& input, Range r
                             hn::GatherIndex(tag, lists.rest_length().data(), kind)}};
       const Vector e[] = {x - gathered(at.x, other)}, dv[] = {v - gathered(at.v, other)};
       Float factor[1], length[1];
-      evaluate_springs<arithmetic>(e, dv, of, factor, length);
+      evaluate_springs(e, dv, of, factor, length);
       const Float nothing = hn::LoadU(tag, slot.nothing.data() + lane);
       const Mask idle = hn::Or(hn::Eq(length[0], hn::Zero(tag)),
                                hn::Lt(length[0], hn::GatherIndex(tag, lists.slack().data(), kind)));
@@ -39,12 +38,6 @@ void listed_forces_in(const SpringLists& lists, const ForceInput& input, Range r
     }
     store(f, forces, n);
   }
-}
-
-void ListedForces(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces) {
-  if (input.arithmetic == Arithmetic::fast)
-    return listed_forces_in<Arithmetic::fast>(lists, input, range, forces);
-  listed_forces_in<Arithmetic::exact>(lists, input, range, forces);
 }
 
 /// One stage of up to `lanes` particles: those behind them belong to another thread.

@@ -1,6 +1,6 @@
 #pragma once
 // The inner loops, compiled for every instruction set of the processor's family and chosen at run time
-// (Highway). In exact arithmetic all of them give the same bits: each lane does what the reference does for
+// (Highway). All of them give the same bits: each lane does what the reference does for
 // one particle, in the same order, without fused multiply-add.
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +24,6 @@ struct ForceInput {
   const Particles* at;  ///< the stage at which forces are taken
   const float* mass;    ///< [kg]
   const physics::BodyForce<float>* body_force;
-  Arithmetic arithmetic = Arithmetic::exact;
 };
 
 /// Gravity, drag and the springs of particles of a body with lists; `range` is relative to the body, its

@@ -38,14 +38,13 @@ HWY_INLINE Vector load(const float* const (&from)[3], std::ptrdiff_t n) {
 
 /// What is added to an upper end where there is no spring, or one of no length: it changes no sum. A spring
 /// of no length takes +0 off its upper end, which is the same as adding −0.
-template <Arithmetic arithmetic>
 HWY_INLINE Float no_force() {
-  return hn::Set(tag, arithmetic == Arithmetic::fast ? 0.0f : -0.0f);
+  return hn::Set(tag, -0.0f);
 }
 
 /// What springs pull from the particles at n: `size` directions with consecutive steps, `slices` vectors of
 /// particles.
-template <Arithmetic arithmetic, std::size_t size, std::size_t slices>
+template <std::size_t size, std::size_t slices>
 HWY_INLINE void evaluate_at(const Chunk& own, std::size_t n, std::ptrdiff_t step, std::size_t d,
                             const Spring (&of)[size], Pulls& pulls, std::size_t kept) {
   constexpr std::size_t springs = size * slices;
@@ -59,22 +58,20 @@ HWY_INLINE void evaluate_at(const Chunk& own, std::size_t n, std::ptrdiff_t step
     }
   }
   Float factor[springs], length[springs];
-  evaluate_springs<arithmetic>(e, dv, of, factor, length);
-  const Float none = no_force<arithmetic>();
+  evaluate_springs(e, dv, of, factor, length);
+  const Float none = no_force();
   for (std::size_t i = 0; i < springs; ++i) {
     const std::size_t at = n + i / size * lanes;
     const Mask present = mask_of(own.bits[at / slice * own.stride + d + i % size], at % slice);
     const Mask pulling = hn::And(present, hn::Gt(length[i], hn::Zero(tag)));
-    const Vector force = arithmetic == Arithmetic::fast
-                             ? hn::IfThenElseZero(present, factor[i]) * e[i]
-                             : chosen(pulling, factor[i] * e[i], {none, none, none});
+    const Vector force = chosen(pulling, factor[i] * e[i], {none, none, none});
     store(force, pulls.at(kept + i % size), at);
   }
 }
 
 /// What the springs of `size` directions pull, whose steps are consecutive, is kept and added to their upper
 /// ends. `d`: the first of the directions; `upper`: the end of the first particle's spring in it.
-template <Arithmetic arithmetic, std::size_t size>
+template <std::size_t size>
 HWY_INLINE void evaluate(const Chunk& chunk, std::span<const Direction> directions, std::size_t d,
                          const Forces& upper, Pulls& pulls, std::size_t kept) {
   const Chunk own = chunk;
@@ -88,12 +85,12 @@ HWY_INLINE void evaluate(const Chunk& chunk, std::span<const Direction> directio
   std::size_t n = 0;
   constexpr std::size_t together = 4 / size;
   for (; n + together * lanes <= own.count; n += together * lanes)
-    evaluate_at<arithmetic, size, together>(own, n, step, d, of, pulls, kept);
-  for (; n < own.count; n += lanes) evaluate_at<arithmetic, size, 1>(own, n, step, d, of, pulls, kept);
+    evaluate_at<size, together>(own, n, step, d, of, pulls, kept);
+  for (; n < own.count; n += lanes) evaluate_at<size, 1>(own, n, step, d, of, pulls, kept);
   // Around the chunk no spring pulls. The ends of a vector of particles lie in one vector and some lanes of
   // the next, or of the next two where a vector is a single lane.
   constexpr std::size_t beyond = size == 1 ? 0 : std::max(lanes, size - 1);
-  const Float none = no_force<arithmetic>();
+  const Float none = no_force();
   for (std::size_t g = 0; g < size; ++g) {
     const Forces of_g = pulls.at(kept + g);
     for (std::size_t m = 0; m < beyond; m += lanes) {
@@ -116,7 +113,6 @@ HWY_INLINE void evaluate(const Chunk& chunk, std::span<const Direction> directio
 
 /// The same for as many directions below `d` as have consecutive steps, up to three. Returns the last of
 /// them.
-template <Arithmetic arithmetic>
 HWY_INLINE std::size_t evaluate_below(const Chunk& chunk, std::span<const Direction> directions,
                                       std::size_t d, std::size_t least, Forces plane, Pulls& pulls) {
   std::size_t size = 1;
@@ -126,15 +122,14 @@ HWY_INLINE std::size_t evaluate_below(const Chunk& chunk, std::span<const Direct
   d -= size;
   for (float*& component : plane.component) component += directions[d].step;
   const std::size_t kept = d - directions.size() / 2;
-  if (size == 3) evaluate<arithmetic, 3>(chunk, directions, d, plane, pulls, kept);
-  if (size == 2) evaluate<arithmetic, 2>(chunk, directions, d, plane, pulls, kept);
-  if (size == 1) evaluate<arithmetic, 1>(chunk, directions, d, plane, pulls, kept);
+  if (size == 3) evaluate<3>(chunk, directions, d, plane, pulls, kept);
+  if (size == 2) evaluate<2>(chunk, directions, d, plane, pulls, kept);
+  if (size == 1) evaluate<1>(chunk, directions, d, plane, pulls, kept);
   return d;
 }
 
-template <Arithmetic arithmetic>
-void springs_in(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
-                const Range& range, int reach, const Forces* forces) {
+void LatticeSprings(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
+                    const Range& range, int reach, const Forces* forces) {
   const std::span<const Direction> directions = lattice.directions();
   const std::size_t half = directions.size() / 2, left = lattice.planes() - 1 - plane;
   std::size_t least = half, end = directions.size();
@@ -154,7 +149,7 @@ void springs_in(const LatticeStencil& lattice, const ForceInput& input, Sweep& s
     for (float*& component : upper.component)
       component += static_cast<std::ptrdiff_t>(range.first) -
                    planes * static_cast<std::ptrdiff_t>(lattice.plane_size());
-    d = evaluate_below<arithmetic>(chunk, directions, d, least, upper, pulls);
+    d = evaluate_below(chunk, directions, d, least, upper, pulls);
   }
   if (!forces) return;
   const Forces so_far = sweep.plane(plane), out = *forces;
@@ -163,18 +158,11 @@ void springs_in(const LatticeStencil& lattice, const ForceInput& input, Sweep& s
     Vector f = load(so_far, range.first + n);
     for (std::size_t d = half; d < end; ++d) {
       const Vector less = f - load(pulls.at(d - half), n);
-      // In exact arithmetic absent springs pull −0 here, which is not +0.
-      f = arithmetic == Arithmetic::fast ? less : chosen(mask_of(neighbours[d], n % slice), less, f);
+      // Absent springs pull −0 here, which is not +0.
+      f = chosen(mask_of(neighbours[d], n % slice), less, f);
     }
     store(f, out, n);
   }
-}
-
-void LatticeSprings(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
-                    const Range& range, int reach, const Forces* forces) {
-  if (input.arithmetic == Arithmetic::fast)
-    return springs_in<Arithmetic::fast>(lattice, input, sweep, plane, range, reach, forces);
-  springs_in<Arithmetic::exact>(lattice, input, sweep, plane, range, reach, forces);
 }
 
 void BeginPlane(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane) {

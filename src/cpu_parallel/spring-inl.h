@@ -37,43 +37,14 @@ HWY_INLINE void evaluate_tensions(const Vector (&e)[springs], const Vector (&v)[
   for (std::size_t i = 0; i < springs; ++i) s[i] = hn::Add(s[i], along[i]);
 }
 
-/// What springs take off the forces on their ends a: factor·e; and their lengths. Exact: the factor is s·q.
-template <Arithmetic arithmetic, std::size_t size, std::size_t springs>
+/// What springs take off the forces on their ends a: factor·e, the factor being s·q; and their lengths.
+template <std::size_t size, std::size_t springs>
 HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[springs],
                                  const Spring (&of)[size], Float (&factor)[springs],
-                                 Float (&length)[springs]) requires(arithmetic == Arithmetic::exact) {
+                                 Float (&length)[springs]) {
   Float q[springs];
   evaluate_tensions(e, v, of, length, q, factor);
   for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::Mul(factor[i], q[i]);
-}
-
-/// Fast: k − q·(k·r − c·((v·e)·q)), q by an estimate of 1/L and a Newton step. An estimate of n bits has 2n −
-/// 1 after that: x86 gives at least 11. A spring shorter than 1e-15 m counts as that long: e = 0 gives no
-/// force and nothing that is not finite.
-template <Arithmetic arithmetic, std::size_t size, std::size_t springs>
-HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[springs],
-                                 const Spring (&of)[size], Float (&factor)[springs],
-                                 Float (&length)[springs]) requires(arithmetic == Arithmetic::fast) {
-  Float square[springs], q[springs], along[springs];
-  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::Mul(e[i].x, e[i].x);
-  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::Mul(v[i].x, e[i].x);
-  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::MulAdd(e[i].y, e[i].y, square[i]);
-  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::MulAdd(v[i].y, e[i].y, along[i]);
-  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::MulAdd(e[i].z, e[i].z, square[i]);
-  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::MulAdd(v[i].z, e[i].z, along[i]);
-  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::Max(square[i], hn::Set(tag, 1e-30f));
-  for (std::size_t i = 0; i < springs; ++i) q[i] = hn::ApproximateReciprocalSqrt(square[i]);
-  for (int step = 0; step < (HWY_ARCH_X86 ? 1 : 2); ++step) {
-    for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::Mul(square[i], q[i]);
-    for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::NegMulAdd(factor[i], q[i], hn::Set(tag, 3.0f));
-    for (std::size_t i = 0; i < springs; ++i) q[i] = hn::Mul(q[i], hn::Set(tag, 0.5f));
-    for (std::size_t i = 0; i < springs; ++i) q[i] = hn::Mul(q[i], factor[i]);
-  }
-  for (std::size_t i = 0; i < springs; ++i) length[i] = hn::Mul(square[i], q[i]);
-  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::Mul(along[i], q[i]);
-  for (std::size_t i = 0; i < springs; ++i)
-    along[i] = hn::NegMulAdd(of[i % size].c, along[i], hn::Mul(of[i % size].k, of[i % size].r));
-  for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::NegMulAdd(q[i], along[i], of[i % size].k);
 }
 
 HWY_INLINE Vector body_force(const ForceInput& input, std::size_t i) {

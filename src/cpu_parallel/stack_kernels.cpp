@@ -44,7 +44,7 @@ HWY_INLINE void pull(const Rows& rows, const float* constants, const UpperEnds::
              constant(ConstantRow::rest_length)};
     slack[s] = constant(ConstantRow::slack);
   }
-  evaluate_springs<Arithmetic::exact>(e, dv, of, factor, length);
+  evaluate_springs(e, dv, of, factor, length);
   // A spring that pulls nowhere adds +0 to its lower end and takes +0 off its upper one.
   const Float none = hn::Set(tag, -0.0f);
   for (std::size_t s = 0; s < size; ++s) {

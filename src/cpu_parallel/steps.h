@@ -31,8 +31,7 @@ struct StepParts {
   MovingLengths& lengths;               ///< of these springs
   /// By particle, with room of `slice` behind the last.
   const FloatArray &mass, &inverse_mass;
-  std::size_t margin;     ///< particles that the springs' loops may read on both sides of an array
-  Arithmetic arithmetic;  ///< of the springs' forces, where the kind leaves a choice
+  std::size_t margin;  ///< particles that the springs' loops may read on both sides of an array
   Workers& workers;
 };
 
@@ -51,8 +50,6 @@ class Steps {
   virtual void forget() {}
   /// The model has become another of the same topology, and dynamics, springs and masses are those of it.
   virtual void constants_changed() { forget(); }
-  /// Of the springs' forces.
-  virtual Arithmetic arithmetic() const { return Arithmetic::exact; }
   /// Bytes that it holds, itself included.
   virtual std::uint64_t bytes() const = 0;
 };

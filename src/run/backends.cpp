@@ -80,7 +80,7 @@ Result<Backend> on_processor(Result<std::unique_ptr<Solver>> made) {
 }
 
 Result<Backend> make_cpu(SharedModel model, const BackendChoice& choice, const SolverHost&) {
-  return on_processor(make_cpu_solver(std::move(model), {choice.threads, choice.arithmetic}));
+  return on_processor(make_cpu_solver(std::move(model), {choice.threads}));
 }
 
 /// A solver counts what it holds: threads and the kinds of bodies decide it.
@@ -126,7 +126,7 @@ constexpr BackendRow table[] = {
      [](const gl::Context*) {
        return Suitability{true, "", "", nullptr};
      },
-     true, true},
+     false, true},
     {"reference", "reference", "one thread, Eigen, written for readability", both_precisions, nullptr, false,
      make_reference,
      [](const Model& model, const BackendChoice& choice) -> std::optional<std::uint64_t> {
@@ -261,8 +261,12 @@ AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Cont
     if (!found.suits) continue;
     result.row = &row;
     result.context = std::move(found.context);
-    break;
+    return result;
   }
+  // None suits, but one has what was asked for: a software rasterizer computes in fast arithmetic.
+  const auto* const able =
+      std::ranges::find_if(table, [&](const BackendRow& row) { return !lacking(row, choice); });
+  if (able != std::end(table)) result.row = able;
   return result;
 }
 

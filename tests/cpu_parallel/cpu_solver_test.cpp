@@ -1,5 +1,5 @@
 // The cpu backend ends with the same bits as the reference in single precision: any scene, integrator and
-// contact model, any number of threads, any instruction set. In fast arithmetic it stays near them.
+// contact model, any number of threads, any instruction set.
 #include "cpu_parallel/cpu_solver.h"
 
 #include <fmt/format.h>
@@ -24,9 +24,8 @@ namespace {
 
 constexpr ContactModel both_models[] = {ContactModel::coulomb, ContactModel::course};
 
-std::unique_ptr<Solver> cpu(const Model& model, unsigned threads = 0,
-                            Arithmetic arithmetic = Arithmetic::exact) {
-  auto solver = make_cpu_solver(model, {threads, arithmetic});
+std::unique_ptr<Solver> cpu(const Model& model, unsigned threads = 0) {
+  auto solver = make_cpu_solver(model, {threads});
   EXPECT_TRUE(solver.ok());
   return std::move(*solver);
 }
@@ -338,103 +337,6 @@ TEST(CpuSolver, NamesTheSameDivergenceOfASolve) {
   EXPECT_TRUE(divergence->residual);
   EXPECT_EQ(solver->solve_statistics()->steps, 0u);
   expect_equal(model, 3, 2);
-}
-
-State after(Solver& solver, std::uint64_t steps) {
-  EXPECT_FALSE((*solver.advance(steps)).divergence.has_value());
-  return *solver.state();
-}
-
-/// Largest distance of a particle in one state from itself in the other [m].
-double distance(const State& a, const State& b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < a.position.size(); ++i)
-    most = std::max(most, length(a.position[i] - b.position[i]));
-  return most;
-}
-
-/// A cube with a corner pinned, a net of cords and a ball, all near the ground.
-ModelSettings everything(Integrator integrator, ContactModel contact) {
-  ModelSettings settings = test::low_cube(6, integrator, contact);
-  settings.cubes[0].pinned.names = {"left-top-front"};
-  settings.goal_nets.emplace_back().cord = true;
-  settings.goal_nets[0].position = {6.0, 1.4, 0.0};
-  settings.goal_nets[0].particles = {3, 6, 7};
-  settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
-  return settings;
-}
-
-TEST(FastArithmetic, StaysNearExactArithmeticAndIsTheSameForAnyNumberOfThreads) {
-  // Contact models take turns with methods and with instruction sets: all pairs of the three occur.
-  std::size_t set = 0;
-  with_every_instruction_set([&set] {
-    ++set;
-    for (std::size_t method = 0; method < explicit_integrators.size(); ++method) {
-      const Integrator integrator = explicit_integrators[method];
-      const ContactModel contact = both_models[(method + set) % std::size(both_models)];
-      SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
-      const Model model = test::build(everything(integrator, contact));
-      const Pull pull = {100, {0.3, 4.0, 0.1}, 800.0, 20.0};
-      State states[3];
-      const unsigned threads[] = {1, 2, 5};
-      for (std::size_t n = 0; n < 3; ++n) {
-        const auto solver = cpu(model, threads[n], Arithmetic::fast);
-        ASSERT_TRUE(solver->set_inputs(inputs_of(pull)).ok());
-        states[n] = after(*solver, 100);
-      }
-      EXPECT_EQ(states[0], states[1]);
-      EXPECT_EQ(states[0], states[2]);
-      const auto exact = cpu(model);
-      ASSERT_TRUE(exact->set_inputs(inputs_of(pull)).ok());
-      const State expected = after(*exact, 100);
-      EXPECT_NE(states[0], expected) << "fast arithmetic is exact";
-      // A step adds at most 100 roundings of a coordinate below 16 m, and motion here does not grow them
-      // by more than 10 in 100 steps.
-      EXPECT_LE(distance(states[0], expected), 10.0 * 100 * 100 * 16.0 * 0x1p-24);
-      const State start = initial_state(model, Precision::single);
-      for (std::size_t i = 0; i < start.position.size(); ++i) {
-        if (model.inverse_mass[i] > 0.0) continue;
-        EXPECT_EQ(states[0].position[i], start.position[i]) << "pinned";
-      }
-    }
-  });
-}
-
-TEST(FastArithmetic, GivesSpringsWithoutLengthNoForce) {
-  with_every_instruction_set([] {
-    for (const bool net : {false, true}) {
-      ModelSettings settings = test::cube_on_plane(4);
-      settings.simulation.gravity = {0.0, 0.0, 0.0};
-      if (net) {
-        settings.cubes.clear();
-        settings.goal_nets.emplace_back();
-      }
-      Model model = test::build(settings);
-      model.initial_position = std::vector<Vec3>(model.particle_count(), {0.0, 2.0, 0.0});
-      const State start = initial_state(model, Precision::single);
-      EXPECT_EQ(after(*cpu(model, 2, Arithmetic::fast), 20).position, start.position);
-    }
-  });
-}
-
-TEST(FastArithmetic, LeavesSlackCordsSlack) {
-  with_every_instruction_set([] {
-    ModelSettings settings;
-    settings.goal_nets.emplace_back().cord = true;
-    settings.simulation.gravity = {0.0, 0.0, 0.0};
-    Model model = test::build(settings);
-    // Everything within half its size: every cord is shorter than it rests.
-    for (std::size_t i = 0; i < model.particle_count(); ++i)
-      model.initial_position.set(i, 0.5 * model.initial_position[i]);
-    const State start = initial_state(model, Precision::single);
-    EXPECT_EQ(after(*cpu(model, 2, Arithmetic::fast), 20).position, start.position);
-  });
-}
-
-TEST(FastArithmetic, IsSaidInTheDescription) {
-  const Model model = test::build(test::low_cube(3, Integrator::explicit_euler, ContactModel::coulomb));
-  EXPECT_NE(cpu(model, 1, Arithmetic::fast)->description().find("fast arithmetic"), std::string::npos);
-  EXPECT_EQ(cpu(model, 1)->description().find("fast"), std::string::npos);
 }
 
 TEST(CpuSolver, TakesOverAStateInMidRun) {
