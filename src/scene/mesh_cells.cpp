@@ -97,8 +97,8 @@ void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources
     for (const std::string_view key : {"voxels[].cells", "voxels[].height", "voxels[].up"}) {
       const auto other = reader.written().find(path_text(key, i));
       if (any || other == reader.written().end() || other->second.problem) continue;
-      reader.blame(other->first,
-                   fmt::format("'{0}' applies to a mesh; add the key 'mesh', or remove '{0}'", key.substr(9)));
+      reader.blame(other->first, fmt::format("'{0}' applies to a mesh; add the key 'mesh', or remove '{0}'",
+                                             key.substr(9)));
     }
     const std::string name = given<std::string>(reader, "voxels[].mesh", i, "");
     if (!any || written->second.problem || name.empty()) continue;

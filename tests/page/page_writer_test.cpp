@@ -226,8 +226,7 @@ TEST_F(PageTest, RefusesMoreThanABrowserHoldsAndSaysWhatFits) {
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::usage);
   EXPECT_THAT(refused.error().message(), HasSubstr("1000 frames of 100000 particles"));
-  EXPECT_THAT(refused.error().message(),
-              HasSubstr("100 million positions, and a browser holds 50 million"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("100 million positions, and a browser holds 50 million"));
   EXPECT_THAT(
       worded(refused.error(), FrontEnd::command_line),
       testing::EndsWith(" Use --fps 30 or less, choose a shorter --duration, or use fewer particles."));
