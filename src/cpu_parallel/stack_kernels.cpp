@@ -70,8 +70,8 @@ void StackForces(const StackInput& input, const Particles& at, const Forces& for
     const float *const mass = input.mass + lane, *const constants = input.constants + lane;
     const BodyForce body_force(input.body_forces + lane);
     for (std::size_t i = 0; i < particles; ++i) {
-      const std::size_t at = i * stack_lanes;
-      store(body_force.at(hn::Load(tag, mass + at), row(rows.v, at)), rows.f, at);
+      const std::size_t own_row = i * stack_lanes;
+      store(body_force.at(hn::Load(tag, mass + own_row), row(rows.v, own_row)), rows.f, own_row);
     }
     for (std::size_t i = 0; i < particles; ++i) {
       const std::size_t own_row = i * stack_lanes, end = springs.start[i + 1];
