@@ -1,4 +1,4 @@
-// What the ball kernels share: blocks, slots, and when to do nothing. The method is described in src/physics/balls/balls.h,
+// Shared by the ball kernels: blocks, slots, and when to do nothing. The method is described in src/physics/balls/balls.h,
 // which these kernels follow operation by operation. Explicit methods tell the step by uniforms; under implicit Euler,
 // where the host does not know how far the device has got, the Solve block does.
 layout(std430, binding = BINDING_STATE_A) restrict buffer StateA { Particle state_a[]; };

@@ -1,4 +1,4 @@
-// What the kernels of balls and faces share (docs/balls.md, "Faces"): src/physics/balls/faces.h in GLSL. Of each ball and
+// Shared by the kernels of balls and faces (docs/balls.md, "Faces"): src/physics/balls/faces.h in GLSL. Of each ball and
 // body with faces there is a pair, which names the nearest face if the ball touches it.
 layout(std430, binding = BINDING_BALL_FACES) restrict readonly buffer FacesBlock { uvec4 faces[]; };
 layout(std430, binding = BINDING_BALL_FACE_BOXES) restrict buffer FaceBoxes { vec4 face_boxes[]; };

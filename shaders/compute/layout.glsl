@@ -51,7 +51,7 @@
 #define CONTACT_VECTORS 7u
 #define CONTACT_AT(which, i) (((which) + 1u) * particle_count + (i))
 
-// What the ground leaves a particle: Freedom in src/physics/terrain/implicit.h.
+// Directions that the ground leaves free: Freedom in src/physics/terrain/implicit.h.
 #define FREE_ALL 0.0
 #define FREE_PLANE 1.0
 #define FREE_LINE 2.0

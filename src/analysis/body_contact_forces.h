@@ -34,7 +34,7 @@ class BodyContactForces {
   /// Finds the forces that the step has which begins with this state; under implicit Euler those with which
   /// its first solve begins. `springs` and `inputs` as in particle_force().
   void find(const SpringFinder& springs, const State& state, const Inputs& inputs);
-  /// Of particles with normal forces, ascending.
+  /// One for each particle with a normal force, in ascending order.
   std::span<const BodyContactForce> forces() const { return forces_; }
   /// On one particle [N].
   Vec3 on(std::uint32_t particle) const;

@@ -133,7 +133,7 @@ void Film::end() {
   canvas_.reset();
 }
 
-/// What the picture of a run is like: as aspic run draws it, alone or with --variant.
+/// Options of a run's image: those of aspic run, alone or with --variant.
 FilmLook Film::look_of(std::size_t run) const {
   const PictureSize& size = recording_->options().size;
   if (!comparison_.active()) return {size, settings.text};

@@ -12,7 +12,7 @@
 
 namespace aspic::cli {
 
-/// What to render and how often.
+/// Images to render, and repeats.
 struct FrameCostOptions {
   PictureSize size;
   double duration = 1.0;  ///< of each repeat, 60 frames each simulated second [s], > 0

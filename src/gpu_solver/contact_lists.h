@@ -1,7 +1,7 @@
 #pragma once
-// What the kernels of contact between bodies walk over (shaders/compute/terms/body_contact.glsl): points with
-// the triangles near them, and for each particle the candidate groups that may act on it. Found on the host,
-// for as long as bodies move little.
+// The lists that kernels of contact between bodies walk over (shaders/compute/terms/body_contact.glsl):
+// points with the triangles near them, and for each particle the candidate groups that may act on it. Found
+// on the host, for as long as bodies move little.
 #include <cstdint>
 #include <span>
 #include <vector>

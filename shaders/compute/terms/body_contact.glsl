@@ -1,4 +1,4 @@
-// What the kernels of contact between bodies share (docs/contact.md): candidate groups, which are points and triangles that the
+// Shared by the kernels of contact between bodies (docs/contact.md): candidate groups, which are points and triangles that the
 // host found near each other, and the contacts made of them.
 layout(location = LOCATION_CONTACT_COUNT) uniform uint contact_count;
 

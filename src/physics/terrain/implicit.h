@@ -14,7 +14,7 @@
 
 namespace aspic::physics {
 
-/// What the ground leaves a particle: everything, the tangent plane of one terrain, the line along two, or
+/// Directions that the ground leaves free: all, the tangent plane of one terrain, the line along two, or
 /// nothing.
 enum class Freedom { all, plane, line, none };
 
