@@ -367,7 +367,7 @@ def endless(attack):
         else:
             os.mkfifo(file)
         refused(["view"], [DEVICE], f"the window's own file, {place}", {"XDG_STATE_HOME": os.path.join(there, "state-" + place), "DISPLAY": None, "WAYLAND_DISPLAY": None},
-                say=b"cannot be used")
+                say=b"Cannot use")
     kernels = os.path.join(there, "shaders", "compute")
     os.makedirs(kernels)
     os.rename(os.path.join(there, "huge"), os.path.join(kernels, "gather.comp"))

@@ -162,7 +162,7 @@ TEST_F(Report, TheCoursesOutlineTakesAtMostTenPages) {
     ASSERT_NE(at, std::string::npos) << words;
   }
   EXPECT_THAT(markdown, HasSubstr("### 4.1 The difference between integrators"));
-  EXPECT_THAT(markdown, HasSubstr("> **Your words.** What did you find"));
+  EXPECT_THAT(markdown, HasSubstr("> **Your words.** Summarize your results"));
   EXPECT_THAT(content(directory->file("o/data/scene.toml")), HasSubstr("author = \"309553010\""));
   // Words in a gap take the place of its question.
   const std::string gap = "aria-label=\"Your words\"></div>", question = "Name the subject";
