@@ -291,7 +291,7 @@ Result<PeerLattice> peer_lattice(const ModelSettings& settings, const Model& mod
     for (const Vec3& x : model.initial_position) room = std::min(room, signed_distance(terrain, x));
     if (terrain.motion) return refuse("the ground must not move");
   }
-  const double time = std::sqrt(2.0 * std::max(room - model.contact.epsilon, 0.0) / l.gravity);
+  const double time = std::sqrt(2.0 * std::max(room - model.contact.distance, 0.0) / l.gravity);
   l.most_steps = static_cast<std::uint64_t>(0.95 * time / l.timestep);
   if (l.most_steps < 1) return refuse("it must not touch the ground");
   return l;

@@ -84,7 +84,8 @@ struct SimulationSettings {
 /// Contact of particles and balls with terrain, of balls with each other, and of bodies.
 struct ContactSettings {
   ContactModel model = ContactModel::coulomb;  ///< docs/physics.md, section 5
-  double epsilon = 0.01;                       ///< ε, m for distances and m/s for speeds, > 0
+  double distance = 0.01;                      ///< ε [m], > 0: within it a body is in contact with terrain
+  double resting_speed = 0.01;                 ///< v_s [m/s], > 0: slower bodies in contact rest
   double restitution = 0.8;                    ///< e, 0…1, default of every terrain
   double friction = 0.3;                       ///< μ, ≥ 0, default of every terrain
   double ball_restitution = 1.0;               ///< 0…1

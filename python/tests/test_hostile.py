@@ -144,7 +144,7 @@ METHODS: dict[tuple[str, str], Calls] = {
     ("Simulation", "update"): lambda sim, bad: [
         lambda: sim.update({"simulation.timestep": bad}),
         lambda: sim.update({"simulation.gravity": [0, bad, 0]}),
-        lambda: sim.update({"contact.epsilon": bad}),
+        lambda: sim.update({"contact.distance": bad}),
     ],
     ("Batch", "step"): lambda sim, bad: [lambda: objects()["batch"].step(bad)],
     ("Batch", "run"): lambda sim, bad: [

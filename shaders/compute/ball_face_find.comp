@@ -101,7 +101,7 @@ void main() {
   Ball ball = ball_in(BALL_SLOT_BETWEEN, ball_of_pair(i));
   face_pairs[i] = none();
   if (ball.velocity.w == 0.0 || !finite(ball.position.xyz)) return;
-  precise float limit = ball.position.w + epsilon;
+  precise float limit = ball.position.w + contact_distance;
   precise float far = 1.01 * limit;
   Looker looker = Looker(ball.position.xyz, limit, far, row_of_faces(body_of_pair(i)));
   uint t = nearest_of(looker);

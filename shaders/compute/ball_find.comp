@@ -17,7 +17,7 @@ bool crowded = false;
 // Puts a ball into the sorted list if it is near.
 void consider(Seeker seeker, uint b) {
   if (!is_partner(seeker, KIND_BALL, b) || !may_contact(seeker, KIND_BALL, b)) return;
-  if (!(partner(seeker, KIND_BALL, b).gap.w < epsilon)) return;
+  if (!(partner(seeker, KIND_BALL, b).gap.w < contact_distance)) return;
   crowded = found_count == LIST_SIZE;
   if (crowded) return;
   uint at = found_count++;

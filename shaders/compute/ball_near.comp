@@ -23,7 +23,7 @@ void main() {
     uint index = first + n;
     if (!is_partner(seeker, sought, index) || !may_contact(seeker, sought, index)) continue;
     Partner other = partner(seeker, sought, index);
-    if (!(other.gap.w < epsilon)) continue;
+    if (!(other.gap.w < contact_distance)) continue;
     if (!velocities_known || dot3(other.dv, other.gap.xyz) < 0.0) acts |= 1u << n;
     if (other.gap.w < 0.0) overlaps |= 1u << n;
     if (seeker.kind == KIND_PARTICLE) mark(index, seeker.index);

@@ -51,7 +51,7 @@ bool may_contact(Seeker seeker, uint kind, uint index) {
     reach = position.w;
   }
   precise vec3 e = seeker.x - x;
-  precise float limit = 1.01 * ((seeker.radius + reach) + epsilon);
+  precise float limit = 1.01 * ((seeker.radius + reach) + contact_distance);
   return !(dot3(e, e) > limit * limit);
 }
 

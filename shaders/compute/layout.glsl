@@ -368,8 +368,8 @@ struct Simulation {
 layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
 #endif
   vec4 gravity;               // g [m/s²]; w: |g|h, speed gained by a step of free fall [m/s]
-  float epsilon;              // ε: m for distances, m/s for speeds
-  float resting_speed;        // max(ε, 2|g|h) [m/s]
+  float contact_distance;     // ε [m]
+  float resting_speed;        // max(v_s, 2|g|h) [m/s]
   float step_scale;           // h / divisor of the method [s]
   float divergence_speed_squared;  // [m²/s²]
   uint particle_count;
@@ -401,7 +401,8 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   float ball_cells_per_metre;  // of the grid
   uint mark_shift;            // a mark stands for 2^mark_shift blocks of particles
   float drag;                 // γ [1/s]
-  uint simulation_padding0, simulation_padding1, simulation_padding2;
+  float set_speed;            // v_s [m/s]: contact.resting-speed
+  uint simulation_padding0, simulation_padding1;
   Stage stages[MAX_STAGES];
   SpringClass spring_classes[MAX_SPRING_CLASSES];
   Terrain terrains[MAX_TERRAINS];

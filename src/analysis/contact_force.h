@@ -14,7 +14,7 @@ inline physics::Vector<double> with_contact(const Model& model,
                                             const physics::Vector<double>& v,
                                             const physics::Vector<double>& f) {
   if (model.contact.model == ContactModel::course)
-    return physics::with_contact_force<double>(ground, constants.epsilon, x, v, f);
+    return physics::with_contact_force<double>(ground, constants, x, v, f);
   const auto at = physics::gap<double>(ground, ground.start, x);
   if (!physics::rests<double>(constants, at.d, physics::dot3<double>(ground.start.relative(v), at.n)))
     return f;

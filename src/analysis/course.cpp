@@ -20,7 +20,7 @@ bool Course::contacts(const State& state) const {
   for (const Terrain& terrain : model_.terrain) {
     const Terrain now = terrain_at(terrain, model_.simulation.timestep, state.step);
     const auto near = [&](const Vec3& x, double radius) {
-      return signed_distance(now, x) - radius <= model_.contact.epsilon;
+      return signed_distance(now, x) - radius <= model_.contact.distance;
     };
     for (const Vec3& x : state.position) {
       if (near(x, 0.0)) return true;
@@ -83,7 +83,7 @@ CourseSummary Course::summary() const {
       summary.squash = squash;
       summary.squash_time = sample.time;
     }
-    const bool slow = sample.measures.max_speed < model_.contact.epsilon;
+    const bool slow = sample.measures.max_speed < model_.contact.resting_speed;
     if (!slow) {
       summary.rest_time.reset();
     } else if (!summary.rest_time) {

@@ -26,8 +26,8 @@ struct CourseSummary {
   CourseSample end;
   double squash = 0.0;       ///< largest loss of extent, as a share of the first sample's; 0 without bodies
   double squash_time = 0.0;  ///< when that was [s]
-  std::optional<double> contact_time;  ///< the first sample with something within contact.epsilon of terrain
-  /// The sample from which on nothing was faster than contact.epsilon (as m/s); absent: there was motion at
+  std::optional<double> contact_time;  ///< the first sample with something within contact.distance of terrain
+  /// The sample from which on nothing was faster than contact.resting-speed; absent: there was motion at
   /// the end.
   std::optional<double> rest_time;
 };

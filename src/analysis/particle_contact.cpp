@@ -34,7 +34,7 @@ std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder&
     std::optional<Vector> f;
     for (std::size_t k = 0; k < grounds.size(); ++k) {
       const Ground<double>& ground = grounds[k];
-      if (!(physics::distance<double>(ground, ground.start, x) < constants.epsilon)) continue;
+      if (!(physics::distance<double>(ground, ground.start, x) < constants.distance)) continue;
       if (!f) {
         f = physics::rounded<double>(
             particle_force(model, springs, state, i, inputs, bodies).without_terrain);

@@ -22,7 +22,7 @@ std::string contacts_of_ball(const Model& model, const State& state, std::uint32
   const Ball& ball = model.balls[b];
   if (!ball.launched(state.step)) return "not launched yet";
   const Vec3 x = state.ball_position[b];
-  const double reach = ball.radius + model.contact.epsilon;
+  const double reach = ball.radius + model.contact.distance;
   std::string words;
   const auto add = [&](const std::string& what) { words += (words.empty() ? "touches " : ", ") + what; };
   for (const Terrain& t : model.terrain) {

@@ -39,7 +39,7 @@ inline double sway_of(const Terrain& terrain) {
 /// here of points within `radius` of `centre`: 1e-5 of them is beyond all.
 inline double nearness(const Model& model, const Terrain& terrain, const Vec3& centre, double radius) {
   const double sway = sway_of(terrain);
-  return model.contact.epsilon + sway + 1e-5 * (length(centre) + radius + reach_of(terrain) + sway);
+  return model.contact.distance + sway + 1e-5 * (length(centre) + radius + reach_of(terrain) + sway);
 }
 
 /// Whether a point of the box may be nearer than ε to any terrain, wherever a moving one is.

@@ -93,7 +93,7 @@ class Dynamics {
                     std::vector<RestingContact<T>>& contacts) const {
     if (model_->contact.model == ContactModel::course || inverse_mass(i) == T(0)) return;
     for (const Ground<T>& ground : grounds_) {
-      if (!(distance<T>(ground, ground.start, x0) < contact_.epsilon)) continue;
+      if (!(distance<T>(ground, ground.start, x0) < contact_.distance)) continue;
       const Gap<T> g = gap<T>(ground, ground.start, x0);
       if (!rests<T>(contact_, g.d, dot3<T>(ground.start.relative(v0), g.n))) continue;
       contacts.push_back({i, ground.friction, least_normal_speed<T>(contact_, g.d),
@@ -103,7 +103,7 @@ class Dynamics {
 
   /// The course model: the force f [N] on a particle that is not pinned, with every terrain's part.
   Vector<T> with_contact(const Vector<T>& x, const Vector<T>& v, Vector<T> f) const {
-    for (const Ground<T>& ground : grounds_) f = with_contact_force<T>(ground, contact_.epsilon, x, v, f);
+    for (const Ground<T>& ground : grounds_) f = with_contact_force<T>(ground, contact_, x, v, f);
     return f;
   }
 
@@ -114,7 +114,7 @@ class Dynamics {
       if (model_->contact.model == ContactModel::coulomb) {
         respond_coulomb<T>(ground, contact_, mass(i), x0, v0, x, v);
       } else {
-        respond_course<T>(ground, contact_.epsilon, mass(i), x, v);
+        respond_course<T>(ground, contact_.distance, mass(i), x, v);
       }
     }
   }

@@ -80,7 +80,7 @@ void fill_balls(layout::Simulation& block, const Model& model) {
   for (const Ball& ball : model.balls) radius = std::max(radius, ball.radius);
   // A ball's reach to another, and twice its reach to a particle, and a quarter more, so that neighbours are
   // never two cells apart, or one and a half, rounding included.
-  block.ball_cells_per_metre = static_cast<float>(1.0 / (2.5 * (radius + model.contact.epsilon)));
+  block.ball_cells_per_metre = static_cast<float>(1.0 / (2.5 * (radius + model.contact.distance)));
 }
 
 std::uint64_t ball_bytes(const ModelCounts& counts) {

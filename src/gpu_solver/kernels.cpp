@@ -133,7 +133,8 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   layout::Simulation block{};
   block.gravity = rounded(model.simulation.gravity, fall_speed(model));
   block.drag = static_cast<float>(model.simulation.drag);
-  block.epsilon = static_cast<float>(model.contact.epsilon);
+  block.contact_distance = static_cast<float>(model.contact.distance);
+  block.set_speed = static_cast<float>(model.contact.resting_speed);
   block.resting_speed = static_cast<float>(resting_speed(model));
   block.divergence_speed_squared = static_cast<float>(divergence_speed * divergence_speed);
   block.particle_count = model.particle_count();

@@ -27,7 +27,7 @@ static_assert(sizeof(Pull) == 32 && offsetof(Pull, stiffness) == 16 && offsetof(
 static_assert(sizeof(Solve) == 192 && offsetof(Solve, lambda) == 64 && offsetof(Solve, converged) == 120 &&
               offsetof(Solve, moved) == 160);
 static_assert(sizeof(Terrain) == 80 && offsetof(Terrain, mass) == 48 && offsetof(Terrain, shape) == 64);
-static_assert(offsetof(Simulation, epsilon) == 16 && offsetof(Simulation, particle_count) == 32);
+static_assert(offsetof(Simulation, contact_distance) == 16 && offsetof(Simulation, particle_count) == 32);
 static_assert(offsetof(Simulation, class_bits) == 48 && offsetof(Simulation, time_step) == 64);
 static_assert(offsetof(Simulation, stages) == 160);
 static_assert(offsetof(Simulation, spring_classes) == 224);

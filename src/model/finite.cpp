@@ -33,8 +33,8 @@ Status check_constants(const Model& model) {
   if (!fits(s.duration)) return refused("simulation.duration");
   if (!fits(s.implicit.tolerance.value_or(0.0))) return refused("simulation.implicit.tolerance");
   const ContactSettings& c = model.contact;
-  for (const double x : {c.epsilon, c.restitution, c.friction, c.ball_restitution, c.ball_friction,
-                         c.body_friction, c.body_gap, c.body_damping})
+  for (const double x : {c.distance, c.resting_speed, c.restitution, c.friction, c.ball_restitution,
+                         c.ball_friction, c.body_friction, c.body_gap, c.body_damping})
     if (!fits(x)) return refused("a number of contact");
   for (std::size_t t = 0; t < model.terrain.size(); ++t) {
     const Terrain& terrain = model.terrain[t];

@@ -75,7 +75,8 @@ double extent(const Terrain& terrain) {
 }
 
 double resting_speed(const Model& model) {
-  return std::max(model.contact.epsilon, 2.0 * length(model.simulation.gravity) * model.simulation.timestep);
+  return std::max(model.contact.resting_speed,
+                  2.0 * length(model.simulation.gravity) * model.simulation.timestep);
 }
 
 double fall_speed(const Model& model) {

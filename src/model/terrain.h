@@ -109,7 +109,7 @@ TerrainGap<double> terrain_gap(const Terrain& terrain, const Vec3& x);
 /// The size of the numbers in a terrain's formulas [m], which bounds the rounding of distances.
 double extent(const Terrain& terrain);
 
-/// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s].
+/// Approach speed below which a contact is at rest: max(v_s, 2|g|h) [m/s].
 double resting_speed(const Model& model);
 
 /// |g|h: speed gained by a step of free fall [m/s].

@@ -158,7 +158,7 @@ Result<Figure> friction_figure(const Study& study) {
       "Friction as set and as measured: the mean acceleration of a 5³ cube on a slope of 25°, between 1 s "
       "and 3 s after its release. Coulomb's friction is μN at any speed, and holds the cube where μ > tan θ "
       "= 0.466. The course's formula, −μN·v, acts on particles within ε of the surface that move across it "
-      "at less than ε. Particles of a cube hop more than that, and it slides as on ice.";
+      "more slowly than v_s. Particles of a cube hop more than that, and it slides as on ice.";
   figure.command = "aspic verify --only contact/cone";
   return figure;
 }

@@ -109,7 +109,7 @@ EnergyWatch::Reach EnergyWatch::reach(const Terrain& terrain, const State& state
   const double gained = length(model_.simulation.gravity) * interval_;
   const auto near = [&](const Vec3& x, const Vec3& v, double radius) {
     return signed_distance(there, x) <
-           radius + model_.contact.epsilon + interval_ * (length(v) + fastest + gained);
+           radius + model_.contact.distance + interval_ * (length(v) + fastest + gained);
   };
   // A ball passes energy from terrain on to particles in contact with it.
   for (std::size_t b = 0; b < model_.balls.size(); ++b)

@@ -157,18 +157,18 @@ class StartCheck {
   }
 
   void resting_distance() {
-    const double epsilon = model_.contact.epsilon;
+    const double distance = model_.contact.distance;
     if (terrain_.empty() || extents_.empty()) return;
     const double smallest = std::ranges::min(extents_, {}, &Extent::spacing).spacing;
-    name(
-        "resting-distance",
-        fmt::format("contact.epsilon, {:.3g} m, is more than a tenth of a spacing: ", epsilon),
-        fmt::format("Bodies may rest this far above terrain; set contact.epsilon to {:.2g}, a fiftieth of it",
-                    0.02 * smallest),
-        [&](const Extent& extent) -> std::optional<std::string> {
-          if (extent.pinned || !(epsilon > (0.1 + 1e-9) * extent.spacing)) return std::nullopt;
-          return fmt::format(" has a spacing of {:.3g} m", extent.spacing);
-        });
+    name("resting-distance",
+         fmt::format("contact.distance, {:.3g} m, is more than a tenth of a spacing: ", distance),
+         fmt::format(
+             "Bodies may rest this far above terrain; set contact.distance to {:.2g}, a fiftieth of it",
+             0.02 * smallest),
+         [&](const Extent& extent) -> std::optional<std::string> {
+           if (extent.pinned || !(distance > (0.1 + 1e-9) * extent.spacing)) return std::nullopt;
+           return fmt::format(" has a spacing of {:.3g} m", extent.spacing);
+         });
   }
 
   /// With what a body has at the start and what it gains on its way to the terrain below its middle.

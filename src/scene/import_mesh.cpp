@@ -104,9 +104,10 @@ Result<ImportedMesh> import_mesh(const MeshImport& import) {
       static_cast<double>(std::max({body.layers.size(), body.layers[0].size(), body.layers[0][0].size()}));
   body.position = {0.0, to_digits(high), 0.0};  // half its height above the ground
   body.material.youngs_modulus = modulus_to_stand(body.material, usual_gravity, high);
-  // Bodies rest up to epsilon above terrain.
-  if (double& epsilon = made.scene.model.contact.epsilon; epsilon > 0.1 * body.size)
-    epsilon = to_digits(0.02 * body.size);
+  // Bodies rest up to the contact distance above terrain.
+  ContactSettings& contact = made.scene.model.contact;
+  if (contact.distance > 0.1 * body.size)
+    contact.distance = contact.resting_speed = to_digits(0.02 * body.size);
   CameraSettings& camera = made.scene.view.camera;
   camera.target = {0.0, to_digits(0.7 * high), 0.0};
   camera.position = {to_digits(1.5 * reach), to_digits(0.7 * high + 0.8 * reach), to_digits(2.4 * reach)};

@@ -200,7 +200,8 @@ std::optional<Value> value_in(const Parameter& p, std::string_view text) {
 Status set_line(Scene& scene, std::string_view line) {
   const std::size_t equals = line.find('=');
   const auto place = equals == std::string_view::npos ? std::nullopt : place_of(line.substr(0, equals));
-  if (!place) return fail(ErrorCode::scene_rejected, "{} names no key.", excerpt(line, 60));
+  if (!place || place->path != place->parameter->path)
+    return fail(ErrorCode::scene_rejected, "{} names no key.", excerpt(line, 60));
   const Parameter* const p = place->parameter;
   const auto value = value_in(*p, line.substr(equals + 1));
   if (!value)

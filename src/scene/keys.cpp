@@ -45,7 +45,7 @@ Result<std::optional<ParameterValue>> value_of(const Scene& scene, const std::st
   const auto place = place_of(key);
   // place_of() is lenient about what is in the brackets.
   if (place && place->index < index_count(*place->parameter, scene) &&
-      path_text(place->parameter->path, place->index) == key)
+      path_text(place->path, place->index) == key)
     return place->parameter->get(scene, place->index);
   // What is wrong with it, --set says best: it takes no such key, whatever the value.
   const std::array assignment = {key + "=0"};

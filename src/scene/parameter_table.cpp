@@ -65,8 +65,10 @@ Rows contact_rows() {
       word<contact_models>(
           "contact.model", FIELD(model.contact.model),
           "Contact law: Coulomb contact with rest, or the formulas of the original assignments."),
-      row("contact.epsilon", "m, m/s", {0.0, 1.0, true}, FIELD(model.contact.epsilon),
-          "Distance from the ground within which a particle may rest, and least approach speed of a bounce."),
+      row("contact.distance", "m", {0.0, 1.0, true}, FIELD(model.contact.distance),
+          "Distance from terrain within which particles and balls are in contact with it."),
+      row("contact.resting-speed", "m/s", {0.0, 1.0, true}, FIELD(model.contact.resting_speed),
+          "Normal speed up to which they may rest; faster impacts bounce."),
       row("contact.restitution", "", fraction, FIELD(model.contact.restitution),
           "Coefficient of restitution of terrains that do not set their own."),
       row("contact.friction", "", friction, FIELD(model.contact.friction),

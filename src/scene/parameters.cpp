@@ -96,7 +96,14 @@ std::optional<Value> Parameter::get(const Scene& scene, std::size_t index) const
   return value;
 }
 
+const FormerKey* find_former_key(std::string_view path) {
+  static const FormerKey table[] = {{"contact.epsilon", {"contact.distance", "contact.resting-speed"}}};
+  const auto* const found = std::ranges::find(table, path, &FormerKey::path);
+  return found == std::end(table) ? nullptr : found;
+}
+
 const Parameter* find_parameter(std::string_view path) {
+  if (const FormerKey* const former = find_former_key(path)) path = former->successors.front();
   const auto all = parameters();
   const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.path == path; });
   return found == all.end() ? nullptr : &*found;
@@ -116,6 +123,7 @@ std::string path_text(std::string_view path, std::size_t index) {
 }
 
 PathKind path_kind(std::string_view path) {
+  if (find_former_key(path)) return PathKind::parameter;
   for (const Parameter& p : parameters()) {
     if (p.path == path) return PathKind::parameter;
     if (!p.path.starts_with(path)) continue;

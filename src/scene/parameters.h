@@ -110,7 +110,15 @@ struct Parameter {
 /// The table, in the order in which files are written.
 std::span<const Parameter> parameters();
 
+/// A name that keys had before 0.3, accepted until 0.4.
+struct FormerKey {
+  std::string_view path;                     ///< `contact.epsilon`
+  std::vector<std::string_view> successors;  ///< the keys of the same table that it sets
+};
 /// The row of a path (with [] for indices), or nullptr.
+const FormerKey* find_former_key(std::string_view path);
+
+/// The row of a path (with [] for indices), or nullptr. A former name means the first key that it sets.
 const Parameter* find_parameter(std::string_view path);
 
 /// The path as messages write it, without brackets: `cube.shear.stiffness`.

@@ -163,6 +163,11 @@ std::vector<Position> elements_of(const toml::node& node, std::uint32_t source) 
   return elements;
 }
 
+std::string both_names(const FormerKey& former) {
+  return fmt::format("'{}' is the former name of {}, and both are given; remove '{}'", former.path,
+                     fmt::join(former.successors, " and "), former.path);
+}
+
 /// A legal value of a key of terrain geometry.
 Value some_geometry(const Parameter& p) {
   return p.type == ParameterType::number ? Value(1.0) : Value(Vec3{0.0, 1.0, 0.0});
@@ -177,11 +182,18 @@ void Reader::read_table(const toml::table& table, std::string_view path, std::si
 }
 
 void Reader::read_member(std::string_view path, std::size_t index, std::string_view key, const Position& at,
-                         const toml::node& value, std::uint32_t source) {
+                         const toml::node& value, std::uint32_t source, const FormerKey* former) {
   const std::string child = fmt::format("{}{}{}", path, path.empty() ? "" : ".", key);
   // A key with brackets or dots inside quotes must not be taken for a path.
   const bool plain = key.find_first_of("[].") == std::string::npos && !key.empty();
   if (!plain) return fail(at, diagnostics::unknown_key(path, key));
+  if (const FormerKey* const row = find_former_key(child)) {
+    for (const std::string_view successor : row->successors) {
+      read_member(path, index, successor.substr(path.size() + 1), at, value, source, row);
+      if (written_.at(path_text(successor, index)).problem) return;
+    }
+    return;
+  }
   const PathKind kind = path_kind(child);
   if (child == "actuator[].phase" && (value.is_number() || value.is_string())) {
     // A number, or a file of one for each cell, in the place of the table.
@@ -191,12 +203,17 @@ void Reader::read_member(std::string_view path, std::size_t index, std::string_v
   }
   if (child == "actuator[].select.voxels" && value.is_string())
     return read_member(path, index, "file", at, value, source);
-  Written here = {at, position_of(value.source(), source), elements_of(value, source), {}};
+  Written here = {at, position_of(value.source(), source), elements_of(value, source), {}, former};
   if (kind == PathKind::unknown) here.problem = {at, diagnostics::unknown_key(path, key)};
   // A value takes the place of a table and all its keys.
   if (kind == PathKind::table && !value.is_table()) forget(path_text(child, index));
   const auto [entry, fresh] = written_.try_emplace(path_text(child, index), here);
   Written& written = entry->second;
+  // An argument may replace what the file has by another name.
+  if (!fresh && written.former != former && (written.key.source == 0) == (source == 0)) {
+    written.problem = {at, both_names(former ? *former : *written.former)};
+    return;
+  }
   // A table adds its keys to one that is there already; anything else replaces it.
   if (!fresh && (kind != PathKind::table || !value.is_table() || written.problem)) written = std::move(here);
   if (kind == PathKind::unknown) return;

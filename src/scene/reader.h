@@ -24,6 +24,7 @@ struct Written {
   Position key, value;
   std::vector<Position> elements;  ///< of an array's elements; of pinned, names before indices
   std::optional<Problem> problem;
+  const FormerKey* former = nullptr;  ///< the name by which it was written, unless its own
 };
 
 /// Reads keys into a scene and remembers where each was written. A key that is written again replaces value,
@@ -41,9 +42,9 @@ class Reader {
 
   /// Reads every member of the table at `path` ("" is the file, `cube[]` an element of a list).
   void read_table(const toml::table& table, std::string_view path, std::size_t index, std::uint32_t source);
-  /// Reads one member of the table at `path`.
+  /// Reads one member of the table at `path`; `former`: it has this former name there.
   void read_member(std::string_view path, std::size_t index, std::string_view key, const Position& at,
-                   const toml::node& value, std::uint32_t source);
+                   const toml::node& value, std::uint32_t source, const FormerKey* former = nullptr);
   /// Notes a table on the way to a key, where none was written.
   void enter(std::string_view path, std::size_t index, const Position& at);
   /// Forgets a path and everything below it: the values that are there now were not written.

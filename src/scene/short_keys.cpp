@@ -119,6 +119,8 @@ std::optional<KeyPlace> place_of(std::string_view path) {
   }
   place.parameter = find_parameter(row);
   if (!place.parameter) return std::nullopt;
+  const FormerKey* const former = find_former_key(row);
+  place.path = former ? former->path : place.parameter->path;
   return place;
 }
 

@@ -39,9 +39,10 @@ Result<std::vector<std::string>> assignments(const Scene& scene, std::string_vie
 /// A row of the parameter table with the element of its list that a key means.
 struct KeyPlace {
   const Parameter* parameter = nullptr;
-  std::size_t index = 0;  ///< 0 for keys of no list; the scene may have no such element
+  std::string_view path = {};  ///< the row's, or a former name of it
+  std::size_t index = 0;       ///< 0 for keys of no list; the scene may have no such element
 };
-/// Of a path such as `cube[1].shear.stiffness`; nothing where the table has no such row.
+/// Of a path such as `cube[1].shear.stiffness`, or of a former name; nothing where the table has no such row.
 std::optional<KeyPlace> place_of(std::string_view path);
 /// Of a short name's first target; nothing where the scene has none.
 std::optional<KeyPlace> place_of(const Scene& scene, const ShortKey& key);

@@ -29,7 +29,8 @@ Result<Model> on_ground(const BodyRow& body, Integrator integrator) {
   ASPIC_TRY(auto airborne, build_model(settings));
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vec3& x : airborne.initial_position) lowest = std::min(lowest, x.y);
-  settings.terrain.emplace_back().geometry["point"] = Vec3{0.0, lowest + 0.5 * settings.contact.epsilon, 0.0};
+  settings.terrain.emplace_back().geometry["point"] =
+      Vec3{0.0, lowest + 0.5 * settings.contact.distance, 0.0};
   return build_model(settings);
 }
 

@@ -108,7 +108,7 @@ struct Rise {
 Result<Rise> energy_rise(const Subject& subject, const Model& model, double duration) {
   const auto in_contact = [&](const State& state) {
     return std::any_of(state.position.begin(), state.position.end(), [&](const Vec3& x) {
-      return signed_distance(model.terrain[0], x) < model.contact.epsilon;
+      return signed_distance(model.terrain[0], x) < model.contact.distance;
     });
   };
   ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));

@@ -37,7 +37,7 @@ Result<Depth> depth_without_ground(const Subject& subject, const Model& model, s
   for (std::uint64_t step = 0; step < steps; ++step) {
     ASPIC_TRY(auto before, run(*unhindered, 1, &now));
     const double depth = deepest(model, before);
-    worst.contact = worst.contact || depth > -model.contact.epsilon;
+    worst.contact = worst.contact || depth > -model.contact.distance;
     if (depth > rounding) {
       const double reach = model.simulation.timestep * std::max(max_speed(now), max_speed(before));
       worst.share = std::max(worst.share, (depth - rounding) / reach);

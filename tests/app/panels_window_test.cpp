@@ -273,7 +273,7 @@ TEST_F(Panels, EverySectionOpensAndShowsItsKeys) {
   EXPECT_FALSE(has("cube[0].bending.damping"));
   click("section/Springs");
   click("section/Contact");
-  for (const char* key : {"contact.model", "contact.restitution", "contact.friction", "contact.epsilon"})
+  for (const char* key : {"contact.model", "contact.restitution", "contact.friction", "contact.distance"})
     EXPECT_TRUE(has(key)) << key;
   click("contact.model");
   click("contact.model/course");

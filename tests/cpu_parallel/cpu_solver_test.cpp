@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <vector>
 
 #include "cpu_reference/reference_solver.h"
@@ -18,6 +19,7 @@
 #include "support/lattice_bodies.h"
 #include "support/model_building.h"
 #include "support/random_state.h"
+#include "support/reference_runs.h"
 
 namespace aspic {
 namespace {
@@ -400,6 +402,17 @@ TEST(CpuSolver, FollowsTheRulesThatKeepRoundingFromDecidingAboutContact) {
   ModelSettings settings = test::low_cube(4, Integrator::explicit_euler, ContactModel::coulomb);
   settings.contact.restitution = 0.0;
   expect_equal(test::build(settings), 400);
+}
+
+TEST(CpuSolver, FollowsEachThresholdOfContact) {
+  for (const ContactModel contact : both_models) {
+    std::set<std::uint64_t> ends;
+    for (const Model& model : test::landings(contact)) {
+      expect_equal(model, 200);
+      ends.insert(state_hash(test::after(model, 200, Precision::single)));
+    }
+    EXPECT_EQ(ends.size(), 3u) << name_of(contact);
+  }
 }
 
 }  // namespace

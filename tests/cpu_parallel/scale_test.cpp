@@ -1,5 +1,5 @@
 // Bodies of any size: lengths times L, Young's modulus times L and times multiplied by the root of L give the
-// same motion, where contact.epsilon goes with the lengths.
+// same motion, where contact.distance goes with the lengths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::vector<double> heights(double L) {
   cube.edge_length = L;
   cube.material = MaterialSettings{1000.0, 1e7 * L, 0.1, {}};
   settings.terrain[0].geometry["point"] = Vec3{};
-  settings.contact.epsilon = 0.02 * L / 4.0;
+  settings.contact.distance = settings.contact.resting_speed = 0.02 * L / 4.0;
   settings.simulation.integrator = Integrator::symplectic_euler;
   settings.simulation.timestep = 3e-4 * std::sqrt(L);
   const Model model = test::build(settings);

@@ -62,11 +62,15 @@ TEST(Course, ResponseIsTheAssignmentsFormula) {
 }
 
 TEST(Course, ContactForceResistsAndRubs) {
-  const V f = with_contact_force<double>(plane(), 0.01, {0, 0, 0}, {2, 0.005, 0}, {1, -8, 0});
+  Model model;
+  model.contact.distance = 0.01;
+  model.contact.resting_speed = 0.01;
+  const ContactConstants<double> contact(model);
+  const V f = with_contact_force<double>(plane(), contact, {0, 0, 0}, {2, 0.005, 0}, {1, -8, 0});
   EXPECT_EQ(f, V(1 - 0.25 * 8 * 2, 0, 0));
-  const V pulled = with_contact_force<double>(plane(), 0.01, {0, 0, 0}, {2, 0, 0}, {1, 8, 0});
+  const V pulled = with_contact_force<double>(plane(), contact, {0, 0, 0}, {2, 0, 0}, {1, 8, 0});
   EXPECT_EQ(pulled, V(1, 8, 0));
-  const V fast = with_contact_force<double>(plane(), 0.01, {0, 0, 0}, {2, -0.02, 0}, {1, -8, 0});
+  const V fast = with_contact_force<double>(plane(), contact, {0, 0, 0}, {2, -0.02, 0}, {1, -8, 0});
   EXPECT_EQ(fast, V(1, -8, 0));
 }
 

@@ -24,7 +24,8 @@ SharedModel with_other_constants(Model model, bool masses) {
   model.simulation.timestep *= 0.9;
   model.simulation.implicit.tolerance = 3e-4;
   model.simulation.implicit.cg_iterations = 90;
-  model.contact.epsilon *= 1.3;
+  model.contact.distance *= 1.3;
+  model.contact.resting_speed *= 1.2;
   model.contact.ball_restitution = 0.6;
   model.contact.ball_friction = 0.1;
   for (Terrain& terrain : model.terrain) {

@@ -37,6 +37,8 @@ TEST_F(ContactRules, HaveTheReferencesBits) {
   ModelSettings settings = test::low_cube(4, Integrator::explicit_euler, ContactModel::coulomb);
   settings.contact.restitution = 0.0;
   expect_equal(test::build(settings), 400);
+  for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course})
+    for (const Model& landing : test::landings(contact)) expect_equal(landing, 200);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST_F(Layout, UniformBlockMatchesTheDriver) {
   EXPECT_EQ(Reflection(p).uniform_block_binding("Simulation"), BINDING_SIMULATION);
   EXPECT_EQ(Reflection(p).uniform_block_data_size("Simulation"), bytes(sizeof(layout::Simulation)));
   EXPECT_UNIFORM_AT(gravity);
-  EXPECT_UNIFORM_AT(epsilon);
+  EXPECT_UNIFORM_AT(contact_distance);
   EXPECT_UNIFORM_AT(resting_speed);
   EXPECT_UNIFORM_AT(step_scale);
   EXPECT_UNIFORM_AT(divergence_speed_squared);

@@ -77,7 +77,8 @@ class World:
         self.h, self.duration = float(simulation["timestep"]), float(simulation["duration"])
         self.gravity = np.array(simulation["gravity"], dtype=float)
         self.drag = float(simulation["drag"])
-        self.model, self.epsilon = contact["model"], float(contact["epsilon"])
+        self.model = contact["model"]
+        self.distance, self.resting_speed = float(contact["distance"]), float(contact["resting-speed"])
         self.terrains = [Terrain(t, contact, f"terrain[{i}]") for i, t in enumerate(scene["terrain"])]
         self.readings = readings
 
@@ -145,7 +146,7 @@ class World:
             d, n = terrain.distance_and_normal(x)
             u = dot(v, n)
             v_t = v - u[:, None] * n
-            acts = (d < self.epsilon) & (np.abs(u) < self.epsilon) & (dot(f, n) < 0)
+            acts = (d < self.distance) & (np.abs(u) < self.resting_speed) & (dot(f, n) < 0)
             normal_force = np.where(acts, -dot(f, n), 0.0)[:, None]
             f = f + normal_force * n - terrain.friction * normal_force * v_t
         return f
@@ -154,7 +155,7 @@ class World:
         for terrain in self.terrains:
             d, n = terrain.distance_and_normal(x)
             u = dot(v, n)
-            acts = self.free & (d < self.epsilon) & (u < 0)
+            acts = self.free & (d < self.distance) & (u < 0)
             bounced = v + (terrain.bounce_speed(u, self.m) - u)[:, None] * n
             v = np.where(acts[:, None], bounced, v)
         return x, v

@@ -26,8 +26,8 @@ class Balls:
                                       for key in ("position", "velocity", "angular-velocity"))
         self.R, self.m = (np.array([t[key] for t in tables], dtype=float) for key in ("radius", "mass"))
         self.w, self.I = 1 / self.m, 0.4 * self.m * self.R**2
-        self.epsilon, self.e, self.mu = contact["epsilon"], contact["ball-restitution"], contact["ball-friction"]
-        self.resting = max(self.epsilon, 2 * np.linalg.norm(world.gravity) * world.h)
+        self.e, self.mu = contact["ball-restitution"], contact["ball-friction"]
+        self.resting = max(self.world.resting_speed, 2 * np.linalg.norm(world.gravity) * world.h)
         self.surfaces = surfaces if contact["bodies"] and contact["model"] == "coulomb" else []
         self.acted = False
 
@@ -42,13 +42,13 @@ class Balls:
         fly = self.world.integrate or (lambda a, y, u, h: (y + h * (u + h * a(0, y, u)), u + h * a(0, y, u)))
         self.x, self.v = fly(lambda c, y, u: self.world.gravity - self.world.drag * self.v0, self.x, self.v, self.world.h)
         for terrain in self.world.terrains:
-            if np.any(terrain.distance_and_normal(self.x)[0] < self.R + 2 * self.epsilon):
+            if np.any(terrain.distance_and_normal(self.x)[0] < self.R + 2 * self.world.distance):
                 raise SceneError("A ball is near terrain, which this reading leaves out.")
-        near = [(b, p) for b in range(len(self.x)) for p in np.flatnonzero(self.distances(b, x) < self.R[b] + self.epsilon)]
+        near = [(b, p) for b in range(len(self.x)) for p in np.flatnonzero(self.distances(b, x) < self.R[b] + self.world.distance)]
         faces = [face for b in range(len(self.x)) for surface in self.surfaces
                  if (face := self.nearest_face(b, surface, x)) is not None]
         balls = [(a, b) for a in range(len(self.x)) for b in range(a)
-                 if np.linalg.norm(self.x[a] - self.x[b]) < self.R[a] + self.R[b] + self.epsilon]
+                 if np.linalg.norm(self.x[a] - self.x[b]) < self.R[a] + self.R[b] + self.world.distance]
         self.acted |= bool(near or faces or balls)
         if balls:
             raise SceneError("Two balls meet, which this reading leaves out.")
@@ -83,7 +83,7 @@ class Balls:
     def nearest_face(self, b, surface, x):
         """Corners, their shares, whether the place is within the face, and the normal's sign; None without a face."""
         A, B, C = (x[surface.triangles[:, k]] for k in range(3))
-        P, limit = self.x[b], self.R[b] + self.epsilon
+        P, limit = self.x[b], self.R[b] + self.world.distance
         wb, wc, within = nearest(P, A, B, C)
         e = P - A - wb[:, None] * (B - A) - wc[:, None] * (C - A)
         L = np.sqrt(dot(e, e))

@@ -43,15 +43,15 @@ class CoulombStep:
     def __init__(self, world):
         self.world, self.x0, self.v0 = world, world.x, world.v
         self.fall = fall = np.linalg.norm(world.gravity) * world.h  # |g|h
-        threshold = max(world.epsilon, 2 * fall)
+        threshold = max(world.resting_speed, 2 * fall)
         self.starts = []
         for terrain in world.terrains:
             d, n = terrain.distance_and_normal(self.x0)
             u = dot(self.v0, n)
             reach = np.maximum(d, 0.0) / world.h
             self.starts.append(Start(
-                d, n, u, resting=world.free & (d < world.epsilon) & (np.abs(u) <= threshold),
-                near=world.free & (d < world.epsilon), fast=world.free & (u < -threshold), least=-np.minimum(reach, fall), reach=-reach))
+                d, n, u, resting=world.free & (d < world.distance) & (np.abs(u) <= threshold),
+                near=world.free & (d < world.distance), fast=world.free & (u < -threshold), least=-np.minimum(reach, fall), reach=-reach))
 
     def reaction(self, f):
         """Forces with the ground's answer to particles at rest: over the complete step they end with no approach."""
@@ -85,7 +85,7 @@ class CoulombStep:
             u = dot(v, n)
             set_down = start.near & ~start.fast
             if held is None:
-                acts = world.free & (d < world.epsilon) & (u < start.least) & ((d < 0) | set_down)
+                acts = world.free & (d < world.distance) & (u < start.least) & ((d < 0) | set_down)
                 mean, change = (d - start.d) / world.h, u - start.u
                 crossing = self.crossing(start.d, d)
             else:
@@ -99,7 +99,7 @@ class CoulombStep:
             if held is None:  # what rests rises no faster than it moves, wherever the method's own lag puts it
                 speed = np.maximum(np.where(acts, target, u), 0.0)
                 undue = np.maximum((d - start.d) - world.h * speed, 0.0)
-                rising = start.resting & (d < world.epsilon) & (undue > 0)
+                rising = start.resting & (d < world.distance) & (undue > 0)
                 x = np.where(rising[:, None], x - undue[:, None] * n, x)
                 d, n = terrain.distance_and_normal(x)
             x = np.where((world.free & (d < 0))[:, None], x - d[:, None] * n, x)
@@ -133,11 +133,11 @@ class CoulombStep:
         return v @ self.starts[terrain].n[i] < self.starts[terrain].reach[i]
 
     def in_one_place(self, i, a, b):
-        """Whether terrains a and b face the same way and are no further apart than epsilon/1024 at the step's end."""
+        """Whether terrains a and b face the same way and are no further apart than distance/1024 at the step's end."""
         n_a, n_b = self.starts[a].n[i], self.starts[b].n[i]
         apart = self.world.h * abs(self.starts[a].reach[i] - self.starts[b].reach[i])
         parallel = n_a @ n_b > 0 and np.sum(np.cross(n_a, n_b) ** 2) <= 1e-6
-        return parallel and apart <= self.world.epsilon / 1024
+        return parallel and apart <= self.world.distance / 1024
 
     def rank(self, terrain):
         return self.world.terrains[terrain].friction, -terrain

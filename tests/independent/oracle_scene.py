@@ -14,7 +14,7 @@ SIMULATION = {
     "steps-per-frame": 8, "implicit": {"newton-iterations": 20, "cg-iterations": 200, "tolerance": None},
 }
 CONTACT = {
-    "model": "coulomb", "epsilon": 0.01, "restitution": 0.8, "friction": 0.3,
+    "model": "coulomb", "distance": 0.01, "resting-speed": 0.01, "restitution": 0.8, "friction": 0.3,
     "ball-restitution": 1.0, "ball-friction": 0.3, "spin": True, "bodies": False, "self": False, "body-friction": 0.3,
     "body-gap": 0.1, "body-damping": 0.2,
 }

@@ -190,7 +190,7 @@ def compare(aspic, name, model, integrator, case):
         world.step()
         in_contact |= world.body_contact is not None and world.body_contact.acted
         in_contact |= world.balls is not None and world.balls.acted
-        in_contact |= any(np.any(t.distance_and_normal(world.x)[0][world.free] < world.epsilon) for t in world.terrains)
+        in_contact |= any(np.any(t.distance_and_normal(world.x)[0][world.free] < world.distance) for t in world.terrains)
     ours = np.hstack([world.x, world.v, np.zeros_like(world.v)])
     if world.balls:
         ours = np.vstack([ours, world.balls.numbers()])

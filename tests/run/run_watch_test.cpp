@@ -138,7 +138,7 @@ TEST(RunWatch, NamesWhatIsNotResolved) {
   settings = test::cube_on_plane(5);
   settings.cubes[0].edge_length = 0.02;
   settings.cubes[0].position.y = 0.02;
-  settings.contact.epsilon = 0.01;
+  settings.contact.distance = 0.01;
   settings.simulation.gravity = {};  // no impact
   EXPECT_THAT(ids_at_start(settings), testing::ElementsAre("resting-distance"));
 

@@ -47,7 +47,8 @@ TEST(Defaults, AreThoseOfTheFormat) {
   EXPECT_EQ(m.simulation.implicit.cg_iterations, 200);
   EXPECT_FALSE(m.simulation.implicit.tolerance.has_value());
   EXPECT_EQ(m.contact.model, ContactModel::coulomb);
-  EXPECT_EQ(m.contact.epsilon, 0.01);
+  EXPECT_EQ(m.contact.distance, 0.01);
+  EXPECT_EQ(m.contact.resting_speed, 0.01);
   EXPECT_EQ(m.contact.restitution, 0.8);
   EXPECT_EQ(m.contact.friction, 0.3);
   EXPECT_EQ(m.contact.ball_restitution, 1.0);

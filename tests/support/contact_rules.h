@@ -71,6 +71,17 @@ Model cube_on_slope(const std::array<double, N>& frictions) {
   return build(settings);
 }
 
+/// A cube that lands, with the default contact thresholds, another distance, and another resting speed.
+inline std::array<Model, 3> landings(ContactModel contact) {
+  ModelSettings settings = cube_on_plane(4, 1.05);
+  settings.cubes[0].velocity = {0.2, 0.0, 0.1};
+  settings.contact.model = contact;
+  ModelSettings farther = settings, faster = settings;
+  farther.contact.distance = 0.1;
+  faster.contact.resting_speed = 1.0;
+  return {build(settings), build(farther), build(faster)};
+}
+
 /// The centre of the particles [m].
 inline Vec3 centre_of(const State& state) {
   Vec3 sum;

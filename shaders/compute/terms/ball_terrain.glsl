@@ -23,7 +23,7 @@ void respond_ball_course(uint t, Ball start, BallBody body, vec3 x, inout precis
   precise vec4 g = ball_gap(t, AT_END, start.position.w, x);
   precise vec3 v_r = relative_velocity(t, AT_END, v);
   precise float u = dot3(v_r, g.xyz);
-  if (!(g.w < epsilon && u < 0.0)) return;
+  if (!(g.w < contact_distance && u < 0.0)) return;
   precise float u_after = bounce_speed(t, body.ball_mass, u);
   precise vec3 v_t = v_r - u * g.xyz;
   precise float gain = u_after - u;
@@ -60,7 +60,7 @@ void respond_ball_coulomb(uint t, Ball start, BallBody body, inout precise vec3 
   precise vec3 v_r = relative_velocity(t, AT_END, v);
   precise float u = dot3(v_r, g.xyz);
   precise float u_after = u;
-  if (g.w < epsilon) u_after = speed_after_contact(t, body.ball_mass, g_0.w, u_0, g.w, u);
+  if (g.w < contact_distance) u_after = speed_after_contact(t, body.ball_mass, g_0.w, u_0, g.w, u);
   precise float gain = (u_after - u) + given;
   if (gain > 0.0) {
     precise vec3 v_t = v_r - u * g.xyz;
@@ -73,7 +73,7 @@ void respond_ball_coulomb(uint t, Ball start, BallBody body, inout precise vec3 
     precise vec3 left = v_t + u_after * g.xyz;
     v = absolute_velocity(t, left);
   }
-  if (!(g.w < epsilon)) return;
+  if (!(g.w < contact_distance)) return;
   precise float rise = undue_rise(g_0.w, u_0, g.w, u_after);
   if (rise > 0.0) {
     x = x - rise * g.xyz;

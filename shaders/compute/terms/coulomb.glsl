@@ -7,12 +7,12 @@ float fall_speed() {
 
 // Whether a body at distance d_0 with normal speed u_0 at the start of a step rests on the ground.
 bool rests(float d_0, float u_0) {
-  return d_0 < epsilon && abs(u_0) <= resting_speed;
+  return d_0 < contact_distance && abs(u_0) <= resting_speed;
 }
 
 // Whether such a body, should it end the step in approach, is set down: it began near the ground, not arriving fast.
 bool set_down(float d_0, float u_0) {
-  return d_0 < epsilon && !(-u_0 > resting_speed);
+  return d_0 < contact_distance && !(-u_0 > resting_speed);
 }
 
 // c = −min(max(d_0, 0)/h, most)
@@ -98,7 +98,7 @@ float undue_rise(float d_0, float u_0, float d, float u) {
 
 // The end of a step that began at x_0, v_0.
 void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, inout precise vec3 v) {
-  if (!(distance_at_end(t, x) < epsilon)) return;
+  if (!(distance_at_end(t, x) < contact_distance)) return;
   precise vec4 g = gap_at_end(t, x);
   precise vec4 g_0 = gap_at_start(t, x_0);
   precise vec3 v_r = relative_velocity(t, AT_END, v);

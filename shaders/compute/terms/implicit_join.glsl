@@ -11,7 +11,7 @@ uint twin_of(uint t, vec3 x, Reaction r) {
     if (dot3(line, line) > least_wedge || !(dot3(a.xyz, b.xyz) > 0.0)) continue;
     precise float difference = least_speed_of(t, a) - least_speed_of(s, b);
     precise float apart = time_step * abs(difference);
-    precise float one = SAME_SURFACE_SHARE * epsilon;
+    precise float one = SAME_SURFACE_SHARE * contact_distance;
     if (apart <= one) return s;
   }
   return NO_TWIN;

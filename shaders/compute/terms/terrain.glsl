@@ -31,7 +31,7 @@ vec3 resisted(uint t, vec4 g, vec3 v_in, vec3 f_in) {
   precise vec3 v = relative_velocity(t, AT_START, v_in);
   precise float u = dot3(v, g.xyz);
   precise float f_n = dot3(f, g.xyz);
-  if (g.w < epsilon && abs(u) < epsilon && f_n < 0.0) {
+  if (g.w < contact_distance && abs(u) < set_speed && f_n < 0.0) {
     precise float N = -f_n;
     precise vec3 v_t = v - u * g.xyz;
     f = (f + N * g.xyz) - (terrains[t].friction * N) * v_t;
@@ -50,7 +50,7 @@ void respond_course(uint t, float m, vec3 x, inout precise vec3 v) {
   precise vec4 g = gap_at_end(t, x);
   precise vec3 v_r = relative_velocity(t, AT_END, v);
   precise float u = dot3(v_r, g.xyz);
-  if (g.w < epsilon && u < 0.0) {
+  if (g.w < contact_distance && u < 0.0) {
     precise vec3 v_t = v_r - u * g.xyz;
     precise vec3 left = v_t + bounce_speed(t, m, u) * g.xyz;
     v = absolute_velocity(t, left);
@@ -62,7 +62,7 @@ vec3 with_ground_reaction(Particle start, vec3 f_in) {
   precise vec3 f = f_in;
   precise float hw = time_step * start.position.w;
   for (uint t = 0u; t < TERRAIN_COUNT; ++t) {
-    if (!(distance_at_start(t, start.position.xyz) < epsilon)) continue;
+    if (!(distance_at_start(t, start.position.xyz) < contact_distance)) continue;
     precise vec4 g_0 = gap_at_start(t, start.position.xyz);
     if (!rests(g_0.w, dot3(relative_velocity(t, AT_START, start.velocity.xyz), g_0.xyz))) continue;
     precise vec3 v_0 = relative_velocity(t, AT_END, start.velocity.xyz);

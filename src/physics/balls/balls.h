@@ -140,7 +140,7 @@ class Balls {
         const BallBody<T>& ball = balls.bodies_[static_cast<std::size_t>(b)];
         Vector<T> f = balls.constant_force(start, b);
         for (const Ground<T>& ground : balls.grounds_) {
-          f = course ? with_contact_force<T>(ground, balls.rules_.contact.epsilon,
+          f = course ? with_contact_force<T>(ground, balls.rules_.contact,
                                              ball_gap<T>(ground, ground.start, ball.radius, x.col(b)),
                                              v.col(b), f)
                      : with_ball_reaction<T>(ground, balls.rules_, ball, start.x.col(b), start.v.col(b), f);
@@ -204,7 +204,7 @@ class Balls {
 
   /// False only for bodies that are further apart than ε, far beyond rounding.
   bool may_contact(const Vector<T>& e, T reach) const {
-    const T limit = T(1.01) * (reach + rules_.contact.epsilon);
+    const T limit = T(1.01) * (reach + rules_.contact.distance);
     return !(dot3<T>(e, e) > limit * limit);
   }
 
@@ -236,7 +236,7 @@ void Balls<T, Search>::find_contacts(std::uint64_t step, const BallPhase<T>& bal
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (model_->balls[b].launched(step) && balls.x.col(b).allFinite()) present_.push_back(b);
   }
-  const Search<T> search(balls.x, present_, largest_radius_ + static_cast<double>(rules_.contact.epsilon));
+  const Search<T> search(balls.x, present_, largest_radius_ + static_cast<double>(rules_.contact.distance));
   ball_ball_.clear();
   auto next = present_.begin();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
@@ -274,7 +274,7 @@ void Balls<T, Search>::add_near(const Search<T>& search, const BallPhase<T>& bal
   near_.clear();
   search.candidates(x, own != no_ball, [&](std::uint32_t b) {
     if (b == own || !may_contact(x - balls.x.col(b), radius + body(b).radius)) return;
-    if (gap_to(b).d < rules_.contact.epsilon) near_.push_back(b);
+    if (gap_to(b).d < rules_.contact.distance) near_.push_back(b);
   });
   if (!std::is_sorted(near_.begin(), near_.end())) std::sort(near_.begin(), near_.end());
   for (const std::uint32_t b : near_) contacts.add(b, gap_to(b).d < T(0));

@@ -74,7 +74,7 @@ class BallsOnFaces {
     if (present.empty() || faces_.bodies.empty()) return;
     make_boxes(particles);
     for (const std::uint32_t b : present) {
-      const T limit = bodies.balls[b].radius + bodies.rules.contact.epsilon;
+      const T limit = bodies.balls[b].radius + bodies.rules.contact.distance;
       for (const FacesOfBody& body : faces_.bodies) find_nearest(b, balls.x.col(b), limit, body, particles);
     }
     name_particles();

@@ -72,7 +72,7 @@ void respond_ball_course(const Ground<T>& ground, const BallRules<T>& rules, con
   const Gap<T> g = ball_gap<T>(ground, ground.end, ball.radius, x);
   const Vector<T> v_r = ground.end.relative(v);
   const T u = dot3<T>(v_r, g.n);
-  if (!(g.d < rules.contact.epsilon && u < T(0))) return;
+  if (!(g.d < rules.contact.distance && u < T(0))) return;
   const T u_after = bounce_speed<T>(ground, ball.mass, u);
   Vector<T> v_t = v_r - u * g.n;
   if (rules.spin) apply_ball_friction<T>(ball, ground.friction, u_after - u, g.n, v_t, omega);
@@ -110,7 +110,7 @@ void respond_ball_coulomb(const Ground<T>& ground, const BallRules<T>& rules, co
   Gap<T> g = ball_gap<T>(ground, ground.end, ball.radius, x);
   const Vector<T> v_r = ground.end.relative(v);
   const T u = dot3<T>(v_r, g.n);
-  const T u_after = g.d < rules.contact.epsilon
+  const T u_after = g.d < rules.contact.distance
                         ? speed_after_contact<T>(ground, rules.contact, ball.mass, g0.d, u0, g.d, u)
                         : u;
   const T gain = (u_after - u) + given;
@@ -123,7 +123,7 @@ void respond_ball_coulomb(const Ground<T>& ground, const BallRules<T>& rules, co
     }
     v = ground.end.absolute(v_t + u_after * g.n);
   }
-  if (!(g.d < rules.contact.epsilon)) return;
+  if (!(g.d < rules.contact.distance)) return;
   const T rise = undue_rise<T>(rules.contact, g0.d, u0, g.d, u_after);
   if (rise > T(0)) {
     x = x - rise * g.n;

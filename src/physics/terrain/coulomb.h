@@ -12,7 +12,7 @@ namespace aspic::physics {
 /// Whether a body at distance d0 [m] with normal speed u0 [m/s] at the start of a step rests on the ground.
 template <class T>
 bool rests(const ContactConstants<T>& contact, T d0, T u0) {
-  return d0 < contact.epsilon && std::abs(u0) <= contact.resting_speed;
+  return d0 < contact.distance && std::abs(u0) <= contact.resting_speed;
 }
 
 /// Whether such a body, should it end the step in approach, is set down: it began near the ground and did not
@@ -20,7 +20,7 @@ bool rests(const ContactConstants<T>& contact, T d0, T u0) {
 /// around within the step; left to its approach it would come back fast, and bounce for ever.
 template <class T>
 bool set_down(const ContactConstants<T>& contact, T d0, T u0) {
-  return d0 < contact.epsilon && !(-u0 > contact.resting_speed);
+  return d0 < contact.distance && !(-u0 > contact.resting_speed);
 }
 
 /// Normal speed c ≤ 0 [m/s] that brings a body at distance d0 [m] to the surface within a step, but no faster
@@ -120,7 +120,7 @@ T undue_rise(const ContactConstants<T>& contact, T d0, T u0, T d, T u) {
 template <class T>
 void respond_coulomb(const Ground<T>& ground, const ContactConstants<T>& contact, T m, const Vector<T>& x0,
                      const Vector<T>& v0, Vector<T>& x, Vector<T>& v) {
-  if (!(distance<T>(ground, x) < contact.epsilon)) return;
+  if (!(distance<T>(ground, x) < contact.distance)) return;
   Gap<T> g = gap<T>(ground, x);
   const Gap<T> g0 = gap<T>(ground, ground.start, x0);
   const Vector<T> v_r = ground.end.relative(v);

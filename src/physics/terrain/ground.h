@@ -104,13 +104,15 @@ T bounce_speed(const Ground<T>& ground, T m, T u) {
 /// What the contact models need in addition to the terrain.
 template <class T>
 struct ContactConstants {
-  T epsilon;        ///< ε: m for distances, m/s for speeds
-  T resting_speed;  ///< v_rest = max(ε, 2|g|h) [m/s]
+  T distance;       ///< ε [m]
+  T set_speed;      ///< v_s [m/s], the setting
+  T resting_speed;  ///< v_rest = max(v_s, 2|g|h) [m/s]
   T step;           ///< h [s]
   T fall;           ///< |g|h: speed gained by a step of free fall [m/s]
 
   explicit ContactConstants(const Model& model)
-      : epsilon(static_cast<T>(model.contact.epsilon)),
+      : distance(static_cast<T>(model.contact.distance)),
+        set_speed(static_cast<T>(model.contact.resting_speed)),
         resting_speed(static_cast<T>(aspic::resting_speed(model))),
         step(static_cast<T>(model.simulation.timestep)),
         fall(static_cast<T>(fall_speed(model))) {}
@@ -120,13 +122,13 @@ struct ContactConstants {
 /// resisted and after_friction. Ground that moves is where it is at the step's start, in all of its
 /// evaluations.
 template <class T>
-Vector<T> with_contact_force(const Ground<T>& ground, T epsilon, const Gap<T>& at, const Vector<T>& v,
-                             const Vector<T>& f) {
+Vector<T> with_contact_force(const Ground<T>& ground, const ContactConstants<T>& contact, const Gap<T>& at,
+                             const Vector<T>& v, const Vector<T>& f) {
   const auto& [d, n] = at;
   const Vector<T> slip = ground.start.relative(v);
   const T u = dot3<T>(slip, n);
   const T f_n = dot3<T>(f, n);
-  if (!(d < epsilon && std::abs(u) < epsilon && f_n < T(0))) return f;
+  if (!(d < contact.distance && std::abs(u) < contact.set_speed && f_n < T(0))) return f;
   const T N = -f_n;
   const Vector<T> v_t = slip - u * n;
   return (f + N * n) - (ground.friction * N) * v_t;
@@ -134,9 +136,9 @@ Vector<T> with_contact_force(const Ground<T>& ground, T epsilon, const Gap<T>& a
 
 /// The same for a particle at x.
 template <class T>
-Vector<T> with_contact_force(const Ground<T>& ground, T epsilon, const Vector<T>& x, const Vector<T>& v,
-                             const Vector<T>& f) {
-  return with_contact_force<T>(ground, epsilon, gap<T>(ground, ground.start, x), v, f);
+Vector<T> with_contact_force(const Ground<T>& ground, const ContactConstants<T>& contact, const Vector<T>& x,
+                             const Vector<T>& v, const Vector<T>& f) {
+  return with_contact_force<T>(ground, contact, gap<T>(ground, ground.start, x), v, f);
 }
 
 /// The course model's response at the end of a step: v' = v_t + B(u)·n.

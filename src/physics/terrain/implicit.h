@@ -88,7 +88,7 @@ class GroundAhead {
   GroundAhead(const std::vector<Ground<T>>& grounds, const ContactConstants<T>& contact, bool acts)
       : grounds_(&grounds),
         h_(contact.step),
-        same_surface_(static_cast<T>(same_surface_share) * contact.epsilon),
+        same_surface_(static_cast<T>(same_surface_share) * contact.distance),
         acts_(acts && !grounds.empty()) {}
 
   bool acts() const { return acts_; }
