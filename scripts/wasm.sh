@@ -26,15 +26,16 @@ fi
 # Headers of the machine's own C++ library must not be found: those of the libraries alone are shown.
 ln -sfn /usr/include/fmt "$made/include/fmt"
 ln -sfn /usr/include/eigen3/Eigen "$made/include/Eigen"
+ln -sfn /usr/include/toml++ "$made/include/toml++"
 
-# What a browser needs, without files, TOML and devices.
+# What a browser needs, without files and devices.
 cd "$root"
 sources=(src/base/{flush_denormals,printable,result,suggestion,wording}.cpp src/model/*.cpp src/physics/contact/*.cpp src/collision/*.cpp src/cpu_reference/*.cpp src/analysis/energy.cpp
-  src/scene/{actuator_rows,body_rows,diagnostics,follow,key_lines,parameter_table,parameters,scene_checks,short_keys,write}.cpp src/live/*.cpp)
+  src/scene/{actuator_rows,aim,body_rows,diagnostics,document,follow,keys,nesting,override_choices,overrides,parameter_table,parameters,parse,reader,reader_checks,scene_checks,short_keys,write}.cpp src/live/*.cpp)
 
 # The same arithmetic as everywhere (docs/determinism.md): no contraction, no fast-math. WebAssembly has no exceptions yet.
 flags="--target=wasm32-wasi -std=c++20 -O2 -ffp-contract=off -fno-exceptions -fvisibility=hidden -DNDEBUG -DFMT_HEADER_ONLY
-  -DFMT_EXCEPTIONS=0 -Iinclude -Isrc -isystem build/wasm/include -w"
+  -DFMT_EXCEPTIONS=0 -D_LIBCPP_HAS_FILESYSTEM=1 -Iinclude -Isrc -isystem build/wasm/include -w"
 {
   echo "ninja_required_version = 1.10"
   echo "builddir = build/wasm"

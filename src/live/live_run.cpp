@@ -4,10 +4,11 @@
 #include <utility>
 
 #include "aspic/model.h"
+#include "aspic/scene.h"
+#include "base/lines.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/actuation.h"
 #include "model/model.h"
-#include "scene/key_lines.h"
 
 namespace aspic::live {
 namespace {
@@ -35,14 +36,16 @@ LiveRun::LiveRun(Scene scene, std::unique_ptr<Solver> solver)
       numbers_(numbers_of(solver_->model())),
       meter_(std::make_unique<Meter>(solver_->model())) {}
 
-Result<LiveRun> LiveRun::create(std::string_view key_lines) {
-  ASPIC_TRY(auto scene, with_key_lines({}, key_lines));
+Result<LiveRun> LiveRun::create(std::string_view text) {
+  ASPIC_TRY(auto scene, parse_scene(text, "scene.toml"));
   ASPIC_TRY(auto solver, solver_of(scene));
   return LiveRun(std::move(scene), std::move(solver));
 }
 
-Status LiveRun::change(std::string_view key_lines, std::vector<double> channels) {
-  ASPIC_TRY(auto scene, with_key_lines(scene_, key_lines));
+Status LiveRun::change(std::string_view lines, std::vector<double> channels) {
+  std::vector<std::string> overrides;
+  while (!lines.empty()) overrides.emplace_back(take_line(lines));
+  ASPIC_TRY(auto scene, with_overrides(scene_, overrides));
   ASPIC_TRY(auto solver, solver_of(scene));
   ASPIC_TRY(State state, solver_->state());
   state.step =

@@ -1,5 +1,5 @@
 #pragma once
-// A run of the reference that obeys a page: made of lines of keys, advanced from picture to picture, changed
+// A run of the reference that obeys a page: made of a scene's text, advanced from picture to picture, changed
 // on its way. Browsers have it as WebAssembly (exports.cpp), the tests as it is.
 #include <array>
 #include <cstdint>
@@ -20,15 +20,15 @@ namespace aspic::live {
 
 class LiveRun {
  public:
-  /// A run at the start of the scene that the lines (scene/key_lines.h) are, in single precision. Errors
-  /// (scene_rejected): with_key_lines(), build_model(), make_reference_solver().
-  static Result<LiveRun> create(std::string_view key_lines);
+  /// A run at the start of the scene of this TOML text, in single precision. Errors (scene_rejected):
+  /// parse_scene(), build_model(), make_reference_solver().
+  static Result<LiveRun> create(std::string_view text);
 
-  /// Goes on from the state it has with other values of some keys, and with these channels of the inputs, in
-  /// the order of the scene that it began with; then a divergence is forgotten. Errors, after which nothing
-  /// has changed: those of create(); a scene of other particles or balls (scene_rejected); more channels than
-  /// there are (usage).
-  Status change(std::string_view key_lines, std::vector<double> channels = {});
+  /// Goes on from the state it has with other values of some keys, a KEY=VALUE on each line
+  /// (with_overrides()), and with these channels of the inputs, in the order of the scene that it began with;
+  /// then a divergence is forgotten. Errors, after which nothing has changed: those of create(); a scene of
+  /// other particles or balls (scene_rejected); more channels than there are (usage).
+  Status change(std::string_view lines, std::vector<double> channels = {});
 
   /// Solver::advance().
   Result<Advance> advance(std::uint64_t steps) { return solver_->advance(steps); }

@@ -9,8 +9,8 @@
 
 #include "base/embedded_file.h"
 #include "model/actuators.h"
-#include "scene/key_lines.h"
 #include "scene/parameters.h"
+#include "scene/write.h"
 
 namespace aspic {
 std::span<const EmbeddedFile> wasm_files();  // cmake/EmbedFiles.cmake; none where scripts/wasm.sh made none
@@ -134,7 +134,7 @@ Json live_facts(const Scene& scene) {
   groups.push_back({{"title", "implicit Euler"}, {"open", false}, {"rows", solve}});
   // Denormal numbers, which browsers keep, come up where a body lies in a plane.
   const bool sheets = !scene.model.cloths.empty() || !scene.model.goal_nets.empty();
-  return {{"keys", to_key_lines(scene)}, {"controls", groups}, {"sheets", sheets}};
+  return {{"scene", to_toml(scene)}, {"controls", groups}, {"sheets", sheets}};
 }
 
 }  // namespace aspic::page

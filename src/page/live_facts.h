@@ -17,7 +17,7 @@ Result<std::string_view> live_module();
 /// hands. `inputs`: there are any. Errors: live_module(); usage.
 Status check_live(Precision precision, Arithmetic arithmetic, bool inputs);
 
-/// The keys of the scene (scene/key_lines.h), and in groups the rows of the parameter table that a reader may
+/// The scene as TOML, and in groups the rows of the parameter table that a reader may
 /// change: those that are live and have a say in the motion, but for the places of terrain, whose surfaces
 /// the page holds. `sheets`: there are cloths or nets, with which browsers can get other bits
 /// (docs/determinism.md, "Denormal numbers").

@@ -35,20 +35,6 @@ Status take_mask(const std::string& path, ActuatorSettings& into) {
 
 }  // namespace
 
-bool is_actuator_source(std::string_view path) {
-  return path == "actuator[].phase.file" || path == "actuator[].select.file";
-}
-
-void choose_signals(Reader& reader) {
-  for (std::size_t i = 0; i < reader.scene().model.actuators.size(); ++i) {
-    const auto table = reader.written().find(path_text("actuator[].table", i));
-    const auto signal = reader.written().find(path_text("actuator[].signal", i));
-    if (table == reader.written().end()) continue;
-    if (signal == reader.written().end() || signal->second.key.source < table->second.key.source)
-      reader.scene().model.actuators[i].signal = Signal::table;
-  }
-}
-
 void read_actuator_files(Reader& reader, const std::vector<diagnostics::Source>& sources) {
   for (std::size_t i = 0; i < reader.scene().model.actuators.size(); ++i) {
     ActuatorSettings& into = reader.scene().model.actuators[i];

@@ -57,12 +57,6 @@ Result<FileCells> cells_of(const NpyArray& array, const CellPalette& by_number) 
 
 }  // namespace
 
-bool is_cell_source(std::string_view path) {
-  constexpr std::string_view keys[] = {"voxels[].file", "voxels[].mesh", "voxels[].cells", "voxels[].height",
-                                       "voxels[].up"};
-  return std::ranges::find(keys, path) != std::end(keys);
-}
-
 void read_cell_files(Reader& reader, const std::vector<diagnostics::Source>& sources) {
   for (std::size_t i = 0; i < reader.scene().model.voxels.size(); ++i) {
     VoxelsSettings& voxels = reader.scene().model.voxels[i];

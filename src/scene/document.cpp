@@ -39,17 +39,27 @@ Position start_of_key_before(std::string_view text, Position at) {
   return at;
 }
 
+Problem problem_of(const toml::parse_error& error, std::string_view text, std::uint32_t source) {
+  Position at = position_of(error.source(), source);
+  const std::string_view description = error.description();
+  if (description.find("key-value pair: cannot redefine") != std::string_view::npos) {
+    at = start_of_key_before(text, at);
+  }
+  return {at, reworded(description)};
+}
+
 std::variant<toml::table, Problem> parse_once(std::string_view text, std::uint32_t source) {
+#if TOML_EXCEPTIONS
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    Position at = position_of(error.source(), source);
-    const std::string_view description = error.description();
-    if (description.find("key-value pair: cannot redefine") != std::string_view::npos) {
-      at = start_of_key_before(text, at);
-    }
-    return Problem{at, reworded(description)};
+    return problem_of(error, text, source);
   }
+#else  // in browsers
+  toml::parse_result parsed = toml::parse(text);
+  if (!parsed) return problem_of(parsed.error(), text, source);
+  return std::move(parsed).table();
+#endif
 }
 
 }  // namespace

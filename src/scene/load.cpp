@@ -1,17 +1,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <utility>
 
 #include "aspic/scene.h"
 #include "base/embedded_file.h"
 #include "base/files.h"
 #include "base/lines.h"
-#include "base/memory.h"
 #include "base/printable.h"
-#include "scene/aim.h"
 #include "scene/diagnostics.h"
-#include "scene/document.h"
 #include "scene/input_file.h"
 #include "scene/reader.h"
 
@@ -29,20 +25,6 @@ std::string known_scenes(std::string_view name) {
                      diagnostics::did_you_mean(diagnostics::nearest(name, names)));
 }
 
-Result<Scene> with_arguments(reader::Reader reader, std::vector<diagnostics::Source> sources,
-                             std::span<const std::string> overrides, const LoadOptions& options,
-                             decltype(overrides::apply) apply = overrides::apply) {
-  apply({overrides, options.origin}, reader, sources);
-  reader::choose_signals(reader);
-  reader::read_cell_files(reader, sources);
-  reader::read_meshes(reader, sources, options);
-  reader::read_actuator_files(reader, sources);
-  auto problems = reader.problems(options.memory_bytes ? options.memory_bytes : available_memory());
-  if (!problems.empty()) return diagnostics::rejection(sources, std::move(problems));
-  if (reader.scene().view.aimed) aim_at_bodies(reader.scene());
-  return std::move(reader.scene());
-}
-
 constexpr std::string_view ending = ".toml";
 
 /// The text of the first comment line.
@@ -54,31 +36,11 @@ std::string_view first_comment(std::string_view text) {
 
 }  // namespace
 
-Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
-                          std::span<const std::string> overrides, const LoadOptions& options) {
-  const auto parsed = document::parse(text, 0);
-  std::vector<diagnostics::Source> sources = {{file_name, std::string(text)}};
-  if (const auto* problem = std::get_if<diagnostics::Problem>(&parsed))
-    return diagnostics::rejection(sources, {*problem});
-  reader::Reader reader({}, true);
-  reader.scene().view.aimed = true;  // until a key of the camera is read
-  reader.read_table(std::get<toml::table>(parsed), "", 0, 0);
-  if (!reader.written().contains("name"))
-    reader.scene().name = std::filesystem::path(file_name).stem().string();
-  return with_arguments(std::move(reader), std::move(sources), overrides, options);
-}
-
-Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides,
-                             const LoadOptions& options) {
-  std::vector<diagnostics::Source> sources = {{scene.name, "", diagnostics::Source::none}};
-  return with_arguments({std::move(scene), false}, std::move(sources), overrides, options);
-}
-
-Result<Scene> with_view(Scene scene, std::span<const std::string> arguments, const LoadOptions& options) {
-  if (arguments.empty()) return scene;
-  std::vector<diagnostics::Source> sources = {{scene.name, "", diagnostics::Source::none}};
-  return with_arguments({std::move(scene), false}, std::move(sources), arguments, options,
-                        overrides::apply_view);
+void reader::read_files(Reader& reader, const std::vector<diagnostics::Source>& sources,
+                        const LoadOptions& options) {
+  read_cell_files(reader, sources);
+  read_meshes(reader, sources, options);
+  read_actuator_files(reader, sources);
 }
 
 Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std::string> overrides,

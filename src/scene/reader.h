@@ -87,10 +87,10 @@ void read_cell_files(Reader& reader, const std::vector<diagnostics::Source>& sou
 /// The same of meshes, with size and skin.
 void read_meshes(Reader& reader, const std::vector<diagnostics::Source>& sources, const LoadOptions& options);
 
-/// A table that was written and no signal, or before it: then it is the signal.
-void choose_signals(Reader& reader);
 /// The same of masks and phases of actuators.
 void read_actuator_files(Reader& reader, const std::vector<diagnostics::Source>& sources);
+/// All three.
+void read_files(Reader& reader, const std::vector<diagnostics::Source>& sources, const LoadOptions& options);
 
 /// Whether a key of [[voxels]] names where cells come from: it is read once, and no scene has it.
 bool is_cell_source(std::string_view path);

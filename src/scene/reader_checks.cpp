@@ -10,6 +10,16 @@
 
 namespace aspic::reader {
 
+bool is_cell_source(std::string_view path) {
+  constexpr std::string_view keys[] = {"voxels[].file", "voxels[].mesh", "voxels[].cells", "voxels[].height",
+                                       "voxels[].up"};
+  return std::ranges::find(keys, path) != std::end(keys);
+}
+
+bool is_actuator_source(std::string_view path) {
+  return path == "actuator[].phase.file" || path == "actuator[].select.file";
+}
+
 std::vector<std::string> Reader::explicit_keys(std::string_view section, std::size_t index) const {
   std::vector<std::string> keys;
   for (const std::string_view key : child_keys(section)) {

@@ -7,7 +7,6 @@
 
 #include "cpu_reference/reference_solver.h"
 #include "model/model.h"
-#include "scene/key_lines.h"
 
 namespace aspic::live {
 namespace {
@@ -20,7 +19,7 @@ Scene scene_of(std::vector<std::string> overrides = {}, const std::string& name 
 }
 
 LiveRun run_of(const Scene& scene) {
-  auto run = LiveRun::create(to_key_lines(scene));
+  auto run = LiveRun::create(to_toml(scene));
   EXPECT_TRUE(run.ok()) << run.error().message();
   return std::move(*run);
 }
@@ -117,6 +116,7 @@ TEST(LiveRun, RefusesWhatNoRunCanHaveAndGoesOnAsItWas) {
   LiveRun run = run_of(scene);
   const auto solver = solver_of(scene);
   EXPECT_FALSE(run.change("simulation.timestep=-1\n").ok());
+  EXPECT_FALSE(run.change("nonsense\n").ok());
   EXPECT_FALSE(run.change("cube[0].particles-per-edge=3\n").ok());
   ASSERT_TRUE(run.advance(20).ok() && solver->advance(20).ok());
   EXPECT_EQ(hash_of(run), state_hash_text(solver->state().value()));

@@ -100,7 +100,7 @@ TEST_F(RunLivePage, HoldsTheSceneAndTheHashesOfItsPictures) {
   EXPECT_EQ(page.ends[0]["hashes"].size(), 7u);  // every 1/60 s, and the last
   EXPECT_EQ(page.ends[0]["hashes"].back(), page.ends[0]["hash"]);
   EXPECT_EQ(page.ends[0]["steps"].back(), 100);
-  EXPECT_THAT(page.facts["live"]["keys"].get<std::string>(), HasSubstr("cube[0].particles-per-edge=3\n"));
+  EXPECT_THAT(page.facts["live"]["scene"].get<std::string>(), HasSubstr("particles-per-edge = 3\n"));
   EXPECT_EQ(page.start, "");
   EXPECT_EQ(page.module.substr(0, 4), std::string("\0asm", 4));
   EXPECT_THAT(dir.read("p.html"), HasSubstr("'wasm-unsafe-eval'; worker-src blob:"));

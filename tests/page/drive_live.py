@@ -1,5 +1,5 @@
 """drive_live.py BROWSER JOB: pages that simulate, in chromium or firefox. JOB is JSON, one of
-{page, runs, results}: computes runs [{keys, steps}] with the module of the page, and writes [[step, hash]] to `results`;
+{page, runs, results}: computes runs [{scene, steps}] with the module of the page, and writes [[step, hash]] to `results`;
 {pages, touch}: opens pages, whose bits must be those of the machine that made them, and in the first tries what a reader can do.
 Exit code 1, with a line for each fault, also where that browser is not installed."""
 import json
@@ -30,13 +30,13 @@ COMPUTE = """
   const text = (id) => document.getElementById(id).textContent;
   const worker = new Worker(URL.createObjectURL(new Blob([text('worker')]))), last = {};
   worker.postMessage({ command: 'load', deflated: bytesOf(text('module')) });
-  window.computed = (keys, steps) => new Promise((go) => {
+  window.computed = (text, steps) => new Promise((go) => {
     worker.onmessage = ({ data }) => {
       if (data.hash) last.end = [data.step, data.hash];
       if (data.failed) go([-1, data.failed]);
       if (data.done || data.diverged) go(last.end);
     };
-    worker.postMessage({ command: 'create', keys, plan: [steps], generation: 1 });
+    worker.postMessage({ command: 'create', text, plan: [steps], generation: 1 });
   });"""
 
 
@@ -45,7 +45,7 @@ def compute(b, job):
     b.call(COMPUTE)
     with open(job["runs"]) as file:
         runs = json.load(file)
-    results = [b.call(f"return computed({json.dumps(run['keys'])}, {run['steps']})") for run in runs]
+    results = [b.call(f"return computed({json.dumps(run['scene'])}, {run['steps']})") for run in runs]
     with open(job["results"], "w") as file:
         json.dump(results, file)
 

@@ -10,7 +10,6 @@
 #include "cpu_reference/reference_solver.h"
 #include "page/builtin_scenes.h"
 #include "page/live_facts.h"
-#include "scene/key_lines.h"
 #include "support/golden_runs.h"
 
 namespace aspic {
@@ -61,7 +60,7 @@ TEST_P(LivePagesInBrowsers, HaveTheKnownBitsOfEverySceneAndMethod) {
   for (const test::GoldenRun& run : known) {
     Scene scene;
     scene.model = run.settings();
-    runs.push_back({{"keys", to_key_lines(scene)}, {"steps", run.steps}});
+    runs.push_back({{"scene", to_toml(scene)}, {"steps", run.steps}});
   }
   std::ofstream(dir_.file("runs.json")) << runs;
   drive({{"page", page_of({"cube-plane", "--steps", "1"})},

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "model/model.h"
-#include "scene/key_lines.h"
 #include "scene/scene_support.h"
 #include "scene/write.h"
 #include "support/temporary_directory.h"
@@ -67,12 +66,8 @@ TEST(ActuatorScene, WrittenAndReadAgainItIsTheSame) {
                                  "select.springs = [\"bending\"]\nselect.box.max = [0.1, 1e3, "
                                  "1e3]\nphase.cells = \"5 2 2: 0 0 0 0 0 0 0 0 0 0 "
                                  "0.5 0 0 0 0 0 0 0 0 0.1\"\n"}) {
-    Scene scene = test::parsed(actuator + keys);
+    const Scene scene = test::parsed(actuator + keys);
     test::expect_same_scene(scene, test::parsed(to_toml(scene)));
-    scene.view = {};  // which key lines leave out
-    const auto again = with_key_lines({}, to_key_lines(scene));
-    ASSERT_TRUE(again.ok()) << again.error().what;
-    test::expect_same_scene(scene, *again, "name");
   }
   EXPECT_THAT(to_toml(test::parsed(actuator + "phase = 0.75\n")), HasSubstr("\nphase = 0.75"));
   EXPECT_THAT(to_toml(test::parsed(actuator)), HasSubstr("\nbody = \"worm\""));

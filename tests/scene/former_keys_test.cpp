@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "aspic/parameters.h"
-#include "scene/key_lines.h"
 #include "scene/scene_support.h"
 #include "scene/write.h"
 
@@ -69,10 +68,6 @@ TEST(FormerKeys, ReadAsTheirFirstSuccessor) {
   const Scene scene = test::parsed(start + "distance = 0.02\n");
   EXPECT_EQ(std::get<double>(value_of(scene, "contact.epsilon").value().value()), 0.02);
   EXPECT_FALSE(value_of(scene, "contact.epsilom").ok());
-}
-
-TEST(FormerKeys, AreNotKeyLines) {
-  EXPECT_FALSE(with_key_lines(test::parsed(start), "contact.epsilon=0.02\n").ok());
 }
 
 }  // namespace

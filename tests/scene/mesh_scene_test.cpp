@@ -9,7 +9,6 @@
 #include "model/skin.h"
 #include "model/skin_text.h"
 #include "scene/import_mesh.h"
-#include "scene/key_lines.h"
 #include "scene/scene_support.h"
 #include "support/temporary_directory.h"
 
@@ -62,15 +61,11 @@ TEST(MeshScene, TakesTheEndsOfItsRanges) {
 }
 
 TEST(MeshScene, SceneThatIsWrittenNeedsNoFile) {
-  Scene scene = test::parsed(voxels_table + "mesh = \"rabbit\"\ncells = 12\n");
+  const Scene scene = test::parsed(voxels_table + "mesh = \"rabbit\"\ncells = 12\n");
   EXPECT_GT(scene.model.voxels[0].skin.size(), 10'000u);
   const std::string text = to_toml(scene);
   EXPECT_THAT(text, testing::Not(HasSubstr("\nmesh =")));
   test::expect_same_scene(scene, test::parsed(text));
-  scene.view = {};  // which key lines leave out
-  const auto lines = with_key_lines({}, to_key_lines(scene));
-  ASSERT_TRUE(lines.ok()) << lines.error().what;
-  test::expect_same_scene(scene, *lines, "name");
 }
 
 TEST(MeshScene, FilesAreRelativeToTheScene) {

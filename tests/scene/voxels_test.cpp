@@ -9,7 +9,6 @@
 
 #include "aspic/parameters.h"
 #include "model/model.h"
-#include "scene/key_lines.h"
 #include "scene/scene_support.h"
 #include "scene/write.h"
 #include "support/temporary_directory.h"
@@ -63,12 +62,9 @@ TEST(VoxelScene, ReadsMaterialsByNameAndLayers) {
   test::expect_same_scene(scene, listed);
 }
 
-TEST(VoxelScene, KeyLinesKeepIt) {
-  Scene scene = test::parsed(worm + "[[voxels]]\nmaterial = \"fat\"\nlayers = [[\"1#\"]]\n");
-  scene.view = {};  // which key lines leave out
-  const auto again = with_key_lines({}, to_key_lines(scene));
-  ASSERT_TRUE(again.ok()) << again.error().what;
-  test::expect_same_scene(scene, *again, "name");
+TEST(VoxelScene, WrittenAndReadAgainItIsTheSame) {
+  const Scene scene = test::parsed(worm + "[[voxels]]\nmaterial = \"fat\"\nlayers = [[\"1#\"]]\n");
+  test::expect_same_scene(scene, test::parsed(to_toml(scene)));
 }
 
 TEST(VoxelScene, ArgumentsNameElements) {

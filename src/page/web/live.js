@@ -146,7 +146,7 @@ class LiveRecording extends Recording {
     this.timestep = this.run.facts.timestep = this.sceneTimestep;
     this.run.keep(0);
     this.changedFrom = Infinity;
-    this.send({ command: "create", keys: this.live.keys, state: this.startState }, -1);
+    this.send({ command: "create", text: this.live.scene, state: this.startState }, -1);
   }
 
   // From a picture on with other values: [path, value] each.
@@ -166,9 +166,9 @@ class LiveRecording extends Recording {
     run.times[at] = step * this.timestep;
     if (changes.length > 0) this.changedFrom = Math.min(this.changedFrom, at);
     const ofScene = changes.filter(([path]) => !this.inputs.some((row) => row.path === path));
-    const keys = ofScene.map(([path, value]) => `${path}=${valueText(value)}\n`).join("");
+    const text = ofScene.map(([path, value]) => `${path}=${valueText(value)}\n`).join("");
     const inputs = this.inputs.map((row) => this.applied.get(row.path));
-    this.send({ command: "change", keys, inputs, state: { step, numbers: run.states[at] } }, step);
+    this.send({ command: "change", text, inputs, state: { step, numbers: run.states[at] } }, step);
   }
 
   // What the module refused of the last change, which a field let pass.

@@ -28,20 +28,20 @@ function known(refused) {
   postMessage({ generation, refused, facts });
 }
 
-// Messages: create {keys, plan, state?}, change {keys, inputs, plan, state}; a state is {step, numbers}.
+// Messages: create {text, plan, state?} with a scene's TOML, change {text, inputs, plan, state} with lines KEY=VALUE; a state is {step, numbers}.
 const commands = {
   load: ({ deflated }) => load(deflated),
-  create({ keys, state }) {
-    give(keys);
+  create({ text, state }) {
+    give(text);
     if (wasm.create() !== 0) throw new Error(answer());
     known();
     step = 0;
     if (state) enter(state);
   },
-  change({ keys, inputs, state }) {
+  change({ text, inputs, state }) {
     enter(state);
     new Float64Array(wasm.memory.buffer, wasm.inputs(inputs.length) >>> 0, inputs.length).set(inputs);
-    give(keys);
+    give(text);
     const refused = wasm.change() !== 0 ? answer() : undefined;
     if (refused) give("");
     if (refused) wasm.change();
