@@ -26,7 +26,7 @@ struct Measures {
   double elastic = 0.0;
   std::optional<double> contact;     ///< of it, the energy of contact [J]; absent without contact of bodies
   double gravitational = 0.0;        ///< −Σ m g·x [J], zero at the origin
-  std::optional<double> drag_power;  ///< Σ γ m v² [W], which drag dissipates; nothing without drag
+  std::optional<double> drag_power;  ///< [W] that drag dissipates, Σ γ m v²; nothing without drag
   Vec3 momentum;                     ///< Σ m v [N·s]
   double max_speed = 0.0;            ///< [m/s]
   double min_height = 0.0;           ///< lowest y of all particles and balls' centres [m]; 0 without any

@@ -49,10 +49,10 @@ struct Geometry {
 /// Contact models.
 enum class ContactModel { coulomb, course };
 
-/// A value of an enumeration with its name in scene files and reports.
-template <class Enum>
+/// A value of an enumeration, or a member of settings, with its name in scene files and reports.
+template <class Value>
 struct Named {
-  Enum value;             ///< one of the enumeration
+  Value value;            ///< one of the enumeration or settings
   std::string_view name;  ///< unique within it
 };
 
@@ -80,6 +80,11 @@ struct SimulationSettings {
   ImplicitSettings implicit;                           ///< for implicit-euler alone
   double drag = 0.0;  ///< γ [1/s], ≥ 0: the force −γ·m·v on every particle and ball
 };
+
+/// Constants of the forces by which the medium resists motion (src/physics/body_force.h), ≥ 0: their keys in
+/// [simulation], in the order of `resistance_constants` in shaders.
+inline constexpr Named<double SimulationSettings::*> resistance_constants[] = {
+    {&SimulationSettings::drag, "drag"}};
 
 /// Contact of particles and balls with terrain, of balls with each other, and of bodies.
 struct ContactSettings {

@@ -14,7 +14,7 @@ vec4 apply(uint i) {
   Particle particle = state(i);
   precise vec3 p = direction(i);
   precise vec3 v = trial[i].xyz;
-  precise vec3 product = implicit_mass(particle.velocity.w) * p;
+  precise vec3 product = implicit_mass(particle.velocity.w, v) * p;
   Walk w = walk(i);
   for (w.end = bounded(w.end, KERNEL_IMPLICIT_APPLY); w.at < w.end; ++w.at) {
     Link link;

@@ -44,7 +44,7 @@ vec4 evaluate(uint i) {
   Particle p = state(i);
   precise vec3 v = trial[i].xyz;
   precise vec3 f = body_force(p.velocity.w, v);
-  DiagonalBlock block = block_of_mass(implicit_mass(p.velocity.w));
+  DiagonalBlock block = block_of_mass(implicit_mass(p.velocity.w, v));
   Walk w = walk(i);
   for (w.end = bounded(w.end, KERNEL_IMPLICIT_EVALUATE); w.at < w.end; ++w.at) {
     Link link;

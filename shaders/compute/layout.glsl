@@ -400,9 +400,9 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   float ball_friction;        // μ of balls and particles
   float ball_cells_per_metre;  // of the grid
   uint mark_shift;            // a mark stands for 2^mark_shift blocks of particles
-  float drag;                 // γ [1/s]
+  vec4 resistance_constants;  // include/aspic/settings.h
   float set_speed;            // v_s [m/s]: contact.resting-speed
-  uint simulation_padding0, simulation_padding1;
+  uint simulation_padding0, simulation_padding1, simulation_padding2;
   Stage stages[MAX_STAGES];
   SpringClass spring_classes[MAX_SPRING_CLASSES];
   Terrain terrains[MAX_TERRAINS];

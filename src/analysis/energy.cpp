@@ -9,6 +9,7 @@
 #include "collision/contact_search.h"
 #include "model/counts.h"
 #include "model/springs.h"
+#include "physics/body_force.h"
 #include "physics/springs/law.h"
 
 namespace aspic {
@@ -38,31 +39,30 @@ double Measures::total() const {
 Measures measure_motion(const Model& model, const State& state) {
   assert(check_sizes(model, state));
   Measures m;
-  const double drag = model.simulation.drag;
-  double fastest_squared = 0.0, resisted = 0.0;  // Σ m v²
-  double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < model.mass.size(); ++i) {
-    m.gravitational -= model.mass[i] * dot(model.simulation.gravity, state.position[i]);
-    lowest = std::min(lowest, state.position[i].y);
-    const double speed_squared = dot(state.velocity[i], state.velocity[i]);
-    m.kinetic += 0.5 * model.mass[i] * speed_squared;
-    resisted += model.mass[i] * speed_squared;
-    m.momentum = m.momentum + model.mass[i] * state.velocity[i];
-    fastest_squared = std::max(fastest_squared, speed_squared);
-  }
+  const physics::BodyForce<double> force(model);
+  if (std::ranges::any_of(resistance_constants,
+                          [&](const auto& row) { return model.simulation.*row.value > 0.0; }))
+    m.drag_power = 0.0;
+  double fastest_squared = 0.0, lowest = std::numeric_limits<double>::infinity();
+  const auto add = [&](double mass, const Vec3& x, const Vec3& v, double rotation) {
+    m.gravitational -= mass * dot(model.simulation.gravity, x);
+    m.kinetic += 0.5 * mass * dot(v, v) + rotation;
+    m.momentum = m.momentum + mass * v;
+    if (m.drag_power)
+      *m.drag_power += dot(physics::vec3_of(force.resistance(mass, physics::rounded<double>(v))), v);
+    lowest = std::min(lowest, x.y);
+    fastest_squared = std::max(fastest_squared, dot(v, v));
+  };
+  for (std::size_t i = 0; i < model.mass.size(); ++i)
+    add(model.mass[i], state.position[i], state.velocity[i], 0.0);
   for (std::size_t b = 0; b < model.balls.size(); ++b) {
     const Ball& ball = model.balls[b];
-    if (!ball.launched(state.step)) continue;
-    const Vec3 &v = state.ball_velocity[b], &omega = state.ball_angular_velocity[b];
-    m.gravitational -= ball.mass * dot(model.simulation.gravity, state.ball_position[b]);
-    m.kinetic += 0.5 * ball.mass * dot(v, v) + 0.5 * ball.inertia() * dot(omega, omega);
-    m.momentum = m.momentum + ball.mass * v;
-    resisted += ball.mass * dot(v, v);
-    lowest = std::min(lowest, state.ball_position[b].y);
-    fastest_squared = std::max(fastest_squared, dot(v, v));
+    const Vec3& omega = state.ball_angular_velocity[b];
+    if (ball.launched(state.step))
+      add(ball.mass, state.ball_position[b], state.ball_velocity[b],
+          0.5 * ball.inertia() * dot(omega, omega));
   }
   m.max_speed = std::sqrt(fastest_squared);
-  if (drag > 0.0) m.drag_power = drag * resisted;
   if (std::isfinite(lowest)) m.min_height = lowest;
   return m;
 }
@@ -70,10 +70,7 @@ Measures measure_motion(const Model& model, const State& state) {
 Measures Meter::measure(const State& state, const Inputs& inputs) {
   const Model& model = parts_->model;
   Measures m = measure_motion(model, state);
-  const std::vector<double> r = rest_lengths(model, state.step, 0.0, inputs.channels);
-  std::vector<physics::SpringConstants<double>> classes(model.spring_classes.begin(),
-                                                        model.spring_classes.end());
-  for (std::size_t n = 0; n < classes.size(); ++n) classes[n].r = r[n];
+  const auto classes = physics::classes_at<double>(model, state.step, 0.0, inputs.channels);
   for (const Spring& spring : springs_of(model))
     m.elastic += physics::spring_energy(classes[spring.spring_class],
                                         length(state.position[spring.a] - state.position[spring.b]));
@@ -91,18 +88,14 @@ Measures measure(const Model& model, const State& state, const Inputs& inputs) {
 std::optional<double> ActuatorWork::add(const Model& model, const State& state, const Inputs& inputs) {
   assert(check_sizes(model, state));
   if (model.actuation.empty()) return std::nullopt;
-  const std::vector<double> r = rest_lengths(model, state.step, 0.0, inputs.channels);
-  std::vector<double> pulls(r.size(), 0.0);
-  for (const Spring& spring : springs_of(model)) {
-    const SpringClass& c = model.spring_classes[spring.spring_class];
-    const double stretch =
-        length(state.position[spring.a] - state.position[spring.b]) - r[spring.spring_class];
-    if (!(c.cord && stretch < 0.0)) pulls[spring.spring_class] += c.stiffness * stretch;
-  }
+  const auto classes = physics::classes_at<double>(model, state.step, 0.0, inputs.channels);
+  std::vector<double> pulls(classes.size(), 0.0);
+  for (const auto& [a, b, of] : springs_of(model))
+    pulls[of] += classes[of].k * physics::stretch(classes[of], length(state.position[a] - state.position[b]));
   ActuatorWork next;
   next.before_.reserve(model.actuation.classes.size());
   for (const ActuatedClass& of : model.actuation.classes)
-    next.before_.push_back({r[of.spring_class], pulls[of.spring_class]});
+    next.before_.push_back({classes[of.spring_class].r, pulls[of.spring_class]});
   return append(next);
 }
 
@@ -122,12 +115,12 @@ double largest_actuation_energy(const Model& model) {
   const std::vector<std::uint64_t> springs = springs_by_class(model);
   double sum = 0.0;
   for (std::size_t c = 0; c < ranges.size(); ++c) {
-    const SpringClass& of = model.spring_classes[c];
-    // A cord that is longer than at rest hangs slack.
-    const double shorter = of.rest_length - ranges[c].least,
-                 longer = of.cord ? 0.0 : ranges[c].most - of.rest_length;
-    const double most = std::max(shorter, longer);
-    sum += 0.5 * static_cast<double>(springs[c]) * of.stiffness * most * most;
+    const auto energy = [&](double r) {
+      physics::SpringConstants<double> spring(model.spring_classes[c]);
+      spring.r = r;
+      return physics::spring_energy(spring, model.spring_classes[c].rest_length);
+    };
+    sum += static_cast<double>(springs[c]) * std::max(energy(ranges[c].least), energy(ranges[c].most));
   }
   return sum;
 }

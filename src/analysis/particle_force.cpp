@@ -34,12 +34,12 @@ Vector exact(const Vec3& v) {
   return physics::rounded<double>(v);
 }
 
-/// Gravity and drag on a particle or ball; returns their sum.
+/// Gravity and resistance on a particle or ball; returns their sum.
 Vector add_body_force(const Model& model, double mass, const Vector& v, ParticleForce& force) {
-  const Vector sum = physics::BodyForce<double>(model).at(mass, v);
-  force.gravity = mass * model.simulation.gravity;
-  force.drag = physics::vec3_of(sum) - force.gravity;
-  return sum;
+  const physics::BodyForce<double> of(model);
+  force.gravity = physics::vec3_of(mass * of.gravity);
+  force.drag = physics::vec3_of(-of.resistance(mass, v));
+  return of.at(mass, v);
 }
 
 /// Adds the pulls on a particle or ball to `net`.
@@ -79,14 +79,11 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
   const Vector x = exact(state.position[particle]), v = exact(state.velocity[particle]);
   ParticleForce force;
   Vector net = add_body_force(model, model.mass[particle], v, force), sum = Vector::Zero();
-  const std::vector<double> lengths = rest_lengths(model, state.step, 0.0, inputs.channels);
+  const auto classes = physics::classes_at<double>(model, state.step, 0.0, inputs.channels);
   for (const Spring& spring : springs.of(model, particle)) {
     const std::uint32_t other = spring.a == particle ? spring.b : spring.a;
-    SpringClass now = model.spring_classes[spring.spring_class];
-    now.rest_length = lengths[spring.spring_class];
-    const Vector f =
-        physics::spring_force<double>(physics::SpringConstants<double>(now), x - exact(state.position[other]),
-                                      v - exact(state.velocity[other]));
+    const Vector f = physics::spring_force<double>(
+        classes[spring.spring_class], x - exact(state.position[other]), v - exact(state.velocity[other]));
     sum += f;
     net += f;
   }

@@ -29,7 +29,7 @@ class BodyContactForces;
 /// Forces on one particle at a state [N] (docs/physics.md, sections 1 and 5).
 struct ParticleForce {
   Vec3 gravity;          ///< m·g
-  Vec3 drag;             ///< −γ·m·v
+  Vec3 drag;             ///< of the medium, against the motion
   Vec3 springs;          ///< sum over its springs
   Vec3 pull;             ///< sum over the pulls on it
   Vec3 bodies;           ///< normal forces and friction of other bodies

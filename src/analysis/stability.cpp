@@ -11,6 +11,7 @@
 #include "analysis/contact_facts.h"
 #include "analysis/spectrum.h"
 #include "model/springs.h"
+#include "physics/body_force.h"
 
 namespace aspic {
 namespace {
@@ -31,12 +32,12 @@ constexpr std::uint64_t work_of_mode = 500;
 /// without a closer look have in common.
 class BodyAnalysis {
  public:
-  /// `drag` γ [1/s] adds to the damping of every mode.
-  BodyAnalysis(LinearisedBody body, double drag, const Effort& effort, WorkBudget& work)
-      : body_(std::move(body)), drag_(drag), effort_(effort), work_(work) {}
+  /// `damping` γ [1/s] adds to that of every mode.
+  BodyAnalysis(LinearisedBody body, double damping, const Effort& effort, WorkBudget& work)
+      : body_(std::move(body)), damping_(damping), effort_(effort), work_(work) {}
 
   const LinearisedBody& body() const { return body_; }
-  double drag() const { return drag_; }
+  double damping() const { return damping_; }
   WorkBudget& work() { return work_; }
   /// Whether all eigenvalues can be afforded: about 10·(2n)³ operations, twenty of which make a spring
   /// evaluation.
@@ -67,7 +68,7 @@ class BodyAnalysis {
 
  private:
   LinearisedBody body_;
-  double drag_;
+  double damping_;
   Effort effort_;
   WorkBudget& work_;
   std::optional<LargestEigenvalue> kappa_, gamma_;
@@ -99,11 +100,11 @@ StabilityLimit proportional_limit(BodyAnalysis& analysis, Integrator integrator)
   const LargestEigenvalue top = by_damping ? analysis.gamma_max() : analysis.kappa_max();
   const auto at = [&](double share) {
     const double value = share * top.value;
-    return by_damping ? of_mode(integrator, 0.0, value + analysis.drag())
-                      : of_mode(integrator, value, body.smallest_ratio() * value + analysis.drag());
+    return by_damping ? of_mode(integrator, 0.0, value + analysis.damping())
+                      : of_mode(integrator, value, body.smallest_ratio() * value + analysis.damping());
   };
   const StabilityLimit end = at(1.0);
-  StabilityLimit least = smaller(end, of_mode(integrator, 0.0, analysis.drag()));
+  StabilityLimit least = smaller(end, of_mode(integrator, 0.0, analysis.damping()));
   scan_unit_interval(300, [&](double share) { least = smaller(least, at(share)); });
   analysis.work().spend(600 * work_of_mode);
   // The interval holds all eigenvalues, but not each of its points is one: only its upper end is sure to be.
@@ -119,10 +120,10 @@ StabilityLimit symplectic_limit(BodyAnalysis& analysis) {
   const auto excess = [&](double h) {
     const LargestEigenvalue top = analysis.largest(h * h, 2.0 * h);
     converged = converged && top.converged;
-    return top.value + 2.0 * h * analysis.drag() - 4.0;
+    return top.value + 2.0 * h * analysis.damping() - 4.0;
   };
   const double kappa = analysis.kappa_max().value;
-  const double gamma = analysis.gamma_max().value + analysis.drag();
+  const double gamma = analysis.gamma_max().value + analysis.damping();
   double low =
       *mode_limit(Integrator::symplectic_euler, kappa, gamma);  // both extremes at once: never too large
   double high = std::min(*mode_limit(Integrator::symplectic_euler, kappa, 0.0),
@@ -160,7 +161,7 @@ StabilityLimit dense_limit(BodyAnalysis& analysis, Integrator integrator) {
 
 /// Bounds on all (κ, γ) of a body: largest values, and ratios γ/κ [s].
 struct ModeBounds {
-  double kappa_max, gamma_max, smallest_ratio, largest_ratio, drag;
+  double kappa_max, gamma_max, smallest_ratio, largest_ratio, damping;
 };
 
 /// The minimum over every (κ, γ) with κ ≤ κ_max, γ ≤ γ_max and γ/κ between the springs' own ratios: for an
@@ -175,12 +176,12 @@ StabilityLimit bounded_limit(const ModeBounds& body, WorkBudget& work, Integrato
     const double from = gamma_of(body.smallest_ratio, kappa), to = gamma_of(body.largest_ratio, kappa);
     constexpr int steps = 40;
     for (int i = 0; i <= steps; ++i) {
-      least = smaller(least, of_mode(integrator, kappa, body.drag + (from + (to - from) * i / steps)));
+      least = smaller(least, of_mode(integrator, kappa, body.damping + (from + (to - from) * i / steps)));
     }
   };
   scan_unit_interval(60, [&](double share) { visit(share * body.kappa_max); });
   work.spend(std::uint64_t{120} * 41 * work_of_mode);
-  least = smaller(least, of_mode(integrator, 0.0, body.gamma_max + body.drag));
+  least = smaller(least, of_mode(integrator, 0.0, body.gamma_max + body.damping));
   least.exact = false;
   return least;
 }
@@ -188,19 +189,19 @@ StabilityLimit bounded_limit(const ModeBounds& body, WorkBudget& work, Integrato
 ModeBounds bounds_of(BodyAnalysis& analysis) {
   const LinearisedBody& body = analysis.body();
   return {analysis.kappa_max().value, analysis.gamma_max().value, body.smallest_ratio(), body.largest_ratio(),
-          analysis.drag()};
+          analysis.damping()};
 }
 
 StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   const LinearisedBody& body = analysis.body();
   const IntegratorRow& row = row_of(integrator);
   if (row.traits.stable_at_any_step) return {infinity, true};
-  if (!body.has_springs()) return of_mode(integrator, 0.0, analysis.drag());
+  if (!body.has_springs()) return of_mode(integrator, 0.0, analysis.damping());
   if (!std::isfinite(body.eigenvalue_bound(1.0, 0.0)) || !std::isfinite(body.eigenvalue_bound(0.0, 1.0)))
     return {0.0, false};
   if (body.proportional()) return proportional_limit(analysis, integrator);
   if (integrator == Integrator::symplectic_euler) return symplectic_limit(analysis);
-  if (analysis.small() && analysis.drag() == 0.0 && !row.staged()->mode_limit)
+  if (analysis.small() && analysis.damping() == 0.0 && !row.staged()->mode_limit)
     return dense_limit(analysis, integrator);
   return bounded_limit(bounds_of(analysis), analysis.work(), integrator);
 }
@@ -229,16 +230,6 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> runs_of(const Model& model)
   if (covered != model.particle_count()) runs = {{0, model.particle_count()}};
   return runs;
 }
-
-/// Springs with which a body is looked at closely: fewer iterations than twenty would say little, and it
-/// takes memory.
-bool affordable(const WorkBudget& work, std::size_t springs) {
-  return !work.spent() && 20 * springs <= work.left();
-}
-
-}  // namespace
-
-namespace {
 
 /// What contact adds to a body's largest κ [1/s²] and γ [1/s].
 struct Added {
@@ -291,34 +282,36 @@ StabilityLimit contact_limit(BodyAnalysis& analysis, const Added& added, Integra
   return smaller(free, bounded_limit(bounds, analysis.work(), integrator));
 }
 
-}  // namespace
-
-std::vector<StabilityLimit> contact_limits(const Model& model, std::span<const Integrator> integrators,
-                                           Meeting meeting, StabilityEffort effort,
-                                           const StabilityWatch& watch) {
+/// Of each integrator the least `limit` of all bodies, `added` to those that may touch.
+template <class Limit>
+std::vector<StabilityLimit> limits_of_bodies(const Model& model, std::span<const Integrator> integrators,
+                                             StabilityEffort effort, const StabilityWatch& watch,
+                                             const std::map<std::uint32_t, Added>& added,
+                                             const Limit& limit) {
   std::vector<StabilityLimit> limits(integrators.size(), StabilityLimit{infinity, true});
   const Effort& means = effort == StabilityEffort::quick ? quick : thorough;
   WorkBudget work(means.evaluations, watch);
-  const std::map<std::uint32_t, Added> added = added_by_contact(model, meeting);
   LinearisedBody rest;
   Added rest_added;
   std::vector<std::pair<const Body*, Added>> looked_at;
   const auto take = [&](LinearisedBody body, const Added& with) {
-    BodyAnalysis analysis(std::move(body), model.simulation.drag, means, work);
+    BodyAnalysis analysis(std::move(body), physics::BodyForce<double>(model).damping(), means, work);
     for (std::size_t i = 0; i < integrators.size(); ++i)
-      limits[i] = smaller(limits[i], contact_limit(analysis, with, integrators[i]));
+      limits[i] = smaller(limits[i], limit(analysis, with, integrators[i]));
   };
   for (const auto& [first, count] : runs_of(model)) {
-    const auto found = added.find(first);
-    const Added with = found == added.end() ? Added() : found->second;
+    const Added with = added.contains(first) ? added.at(first) : Added();
     const auto body = std::ranges::find(model.bodies, first, &Body::first_particle);
     const auto known = [&](const std::pair<const Body*, Added>& other) {
       return other.second == with && same_springs(model, *other.first, *body);
     };
-    if (body != model.bodies.end() && std::ranges::any_of(looked_at, known)) continue;
-    if (body != model.bodies.end()) looked_at.emplace_back(&*body, with);
+    if (!added.empty() && body != model.bodies.end()) {
+      if (std::ranges::any_of(looked_at, known)) continue;
+      looked_at.emplace_back(&*body, with);
+    }
     LinearisedBody light(model, first, count, false);
-    if (affordable(work, light.spring_count())) {
+    // Fewer iterations than twenty would say little, and they take memory.
+    if (!work.spent() && 20 * light.spring_count() <= work.left()) {
       take(LinearisedBody(model, first, count), with);
     } else {
       rest.join(light);
@@ -329,28 +322,20 @@ std::vector<StabilityLimit> contact_limits(const Model& model, std::span<const I
   return limits;
 }
 
+}  // namespace
+
+std::vector<StabilityLimit> contact_limits(const Model& model, std::span<const Integrator> integrators,
+                                           Meeting meeting, StabilityEffort effort,
+                                           const StabilityWatch& watch) {
+  return limits_of_bodies(model, integrators, effort, watch, added_by_contact(model, meeting), contact_limit);
+}
+
 std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const Integrator> integrators,
                                              StabilityEffort effort, const StabilityWatch& watch) {
-  std::vector<StabilityLimit> limits(integrators.size(), StabilityLimit{infinity, true});
-  const Effort& means = effort == StabilityEffort::quick ? quick : thorough;
-  WorkBudget work(means.evaluations, watch);
-  LinearisedBody rest;
-  const auto take = [&](LinearisedBody body) {
-    BodyAnalysis analysis(std::move(body), model.simulation.drag, means, work);
-    for (std::size_t i = 0; i < integrators.size(); ++i) {
-      limits[i] = smaller(limits[i], at_shortest(analysis, body_limit(analysis, integrators[i])));
-    }
-  };
-  for (const auto& [first, count] : runs_of(model)) {
-    LinearisedBody light(model, first, count, false);
-    if (affordable(work, light.spring_count())) {
-      take(LinearisedBody(model, first, count));
-    } else {
-      rest.join(light);
-    }
-  }
-  if (rest.has_springs()) take(std::move(rest));
-  return limits;
+  return limits_of_bodies(model, integrators, effort, watch, {},
+                          [](BodyAnalysis& analysis, const Added&, Integrator integrator) {
+                            return at_shortest(analysis, body_limit(analysis, integrator));
+                          });
 }
 
 /// Different kinds of bodies that are looked at in no time; more of them are left to stability_limit.
@@ -359,9 +344,10 @@ constexpr int most_looks = 50;
 bool certainly_stable(const Model& model, Integrator integrator, double timestep) {
   if (row_of(integrator).traits.stable_at_any_step) return true;
   if (!model.actuation.empty()) return false;
+  const double gamma = physics::BodyForce<double>(model).damping();
   std::uint32_t covered = 0;
   double known_kappa = 0.0, known_ratio = 0.0;  // of the body before: cubes are often alike
-  std::optional<StabilityLimit> known;
+  StabilityLimit least;
   int looks = 0;
   for (const Body& body : model.bodies) {
     covered += body.particle_count;
@@ -377,17 +363,15 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
       inverse_mass = std::max(inverse_mass, model.inverse_mass[i]);
     }
     const double kappa = infinite_lattice_eigenvalue * stiffness * inverse_mass;
-    if (!known || kappa != known_kappa || ratio != known_ratio) {
+    if (looks == 0 || kappa != known_kappa || ratio != known_ratio) {
       if (++looks > most_looks) return false;
-      StabilityLimit limit = of_mode(integrator, kappa, ratio * kappa);
+      least = of_mode(integrator, 0.0, gamma);
       scan_unit_interval(300, [&](double share) {
-        limit = smaller(limit, of_mode(integrator, share * kappa, ratio * share * kappa));
+        least = smaller(least, of_mode(integrator, share * kappa, gamma + ratio * share * kappa));
       });
-      known = limit;
       known_kappa = kappa;
       known_ratio = ratio;
     }
-    const StabilityLimit& least = *known;
     if (!body.lattice || !least.step || timestep > *least.step) return false;
   }
   return covered == model.particle_count();

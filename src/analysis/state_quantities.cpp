@@ -17,21 +17,18 @@ namespace {
 void add_springs(const Model& model, const State& state, const Inputs& inputs, StateQuantities& q) {
   std::vector<std::uint32_t> ending(model.particle_count());
   q.mean_strain.resize(model.particle_count());
-  const std::vector<double> lengths = rest_lengths(model, state.step, 0.0, inputs.channels);
+  const auto classes = physics::classes_at<double>(model, state.step, 0.0, inputs.channels);
   const bool actuated = !model.actuation.empty();
   if (actuated) q.mean_actuation.resize(model.particle_count());
   for (const Spring& s : springs_of(model)) {
-    const SpringClass& c = model.spring_classes[s.spring_class];
     const Vec3 e = state.position[s.a] - state.position[s.b];
-    const double r = lengths[s.spring_class];
-    physics::SpringConstants<double> now(c);
-    now.r = r;
+    const double r = classes[s.spring_class].r, r_0 = model.spring_classes[s.spring_class].rest_length;
     const physics::SpringTension<double> at(
-        now, physics::rounded<double>(e),
+        classes[s.spring_class], physics::rounded<double>(e),
         physics::rounded<double>(state.velocity[s.a] - state.velocity[s.b]));
     q.strain.push_back(r > 0.0 ? at.L / r - 1.0 : 0.0);
     q.tension.push_back(at.s);
-    if (actuated) q.actuation.push_back(c.rest_length > 0.0 ? r / c.rest_length - 1.0 : 0.0);
+    if (actuated) q.actuation.push_back(r_0 > 0.0 ? r / r_0 - 1.0 : 0.0);
     for (const std::uint32_t end : {s.a, s.b}) {
       q.mean_strain[end] += std::abs(q.strain.back());
       if (actuated) q.mean_actuation[end] += q.actuation.back();

@@ -297,7 +297,8 @@ void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
     }
     ImGui::PopID();
   }
-  edit(gui, scene, "simulation.drag");
+  for (const auto& constant : resistance_constants)
+    edit(gui, scene, fmt::format("simulation.{}", constant.name));
   shown_springs(gui, scene);
 }
 

@@ -29,7 +29,9 @@ struct BodyForce {
         }) {}
 
   HWY_INLINE Vector at(Float m, const Vector& v) const { return m * gravity - hn::Mul(drag, m) * v; }
-  HWY_INLINE Float implicit_mass(Float m, Float h) const { return hn::Add(m, hn::Mul(h, hn::Mul(drag, m))); }
+  HWY_INLINE Float implicit_mass(Float m, const Vector& /*v*/, Float h) const {
+    return hn::Add(m, hn::Mul(h, hn::Mul(drag, m)));
+  }
 
  private:
   using Of = const physics::BodyForce<float>&;

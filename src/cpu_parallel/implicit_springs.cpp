@@ -47,7 +47,8 @@ HWY_INLINE LinearizedSpring linearized(const SpringLanes& spring, const Vector& 
 }
 
 HWY_INLINE Float implicit_mass(const Linearization& at, std::size_t p) {
-  return BodyForce(*at.body_force).implicit_mass(hn::LoadU(tag, at.mass + p), hn::Set(tag, at.h));
+  return BodyForce(*at.body_force)
+      .implicit_mass(hn::LoadU(tag, at.mass + p), load(*at.v, p), hn::Set(tag, at.h));
 }
 
 /// Force and diagonal block of the particles in the lanes.

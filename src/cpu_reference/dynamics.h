@@ -25,7 +25,6 @@ class Dynamics {
         contact_(model),
         mass_(model.mass),
         inverse_mass_(model.inverse_mass) {
-    for (const SpringClass& spring : model.spring_classes) classes_.emplace_back(spring);
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
   }
 
@@ -57,8 +56,7 @@ class Dynamics {
   const std::vector<double>& channels() const { return channels_; }
   /// Bytes it holds on the heap.
   std::uint64_t bytes() const {
-    return mass_.bytes() + inverse_mass_.bytes() + classes_.capacity() * sizeof(SpringConstants<T>) +
-           grounds_.capacity() * sizeof(Ground<T>);
+    return mass_.bytes() + inverse_mass_.bytes() + grounds_.capacity() * sizeof(Ground<T>);
   }
   /// Those on particles, in the order in which they are added.
   const std::vector<PullConstants<T>>& pulls() const { return pulls_; }
@@ -69,16 +67,9 @@ class Dynamics {
   const BodyForce<T>& body_force() const { return body_force_; }
   T mass(Eigen::Index i) const { return mass_[static_cast<std::size_t>(i)]; }
   T inverse_mass(Eigen::Index i) const { return inverse_mass_[static_cast<std::size_t>(i)]; }
-  /// Constants of all spring classes this share of the step after its start: actuated ones have the rest
-  /// length that they have then.
+  /// Constants of all spring classes, this share of the step after its start.
   std::vector<SpringConstants<T>> classes_at(double share) const {
-    std::vector<SpringConstants<T>> classes = classes_;
-    if (model_->actuation.empty()) return classes;
-    RestLengths lengths(*model_);
-    std::size_t n = 0;
-    for (const double r : lengths.at(step_, share, channels_))
-      classes[model_->actuation.classes[n++].spring_class].r = static_cast<T>(r);
-    return classes;
+    return physics::classes_at<T>(*model_, step_, share, channels_);
   }
 
   /// w·f [m/s²]
@@ -142,7 +133,6 @@ class Dynamics {
   const std::atomic<bool>* flag_ = nullptr;
   BodyForce<T> body_force_;
   ContactConstants<T> contact_;
-  std::vector<SpringConstants<T>> classes_;
   std::vector<Ground<T>> grounds_;
   std::vector<PullConstants<T>> pulls_;
   Runs<T> mass_, inverse_mass_;

@@ -11,7 +11,7 @@ Field<T> nothing(Eigen::Index count) {
   return Field<T>::Constant(3, count, T(-0.0));
 }
 
-/// Gravity and linear drag, with the mass of A.
+/// Gravity and resistance, with the mass of A.
 template <class T>
 class BodyForceTerm final : public Term<T> {
  public:
@@ -23,18 +23,20 @@ class BodyForceTerm final : public Term<T> {
   void linearize(const Field<T>& x, const Field<T>& v, Field<T>& f,
                  typename Term<T>::Blocks& blocks) override {
     add_force(x, v, 1.0, f);
-    for (Eigen::Index i = 0; i < f.cols(); ++i)
-      blocks[static_cast<std::size_t>(i)].add(DiagonalBlock<T>(mass(i)));
+    mass_.resize(f.cols());
+    for (Eigen::Index i = 0; i < f.cols(); ++i) {
+      mass_[i] = force_.implicit_mass(dynamics_.mass(i), v.col(i), dynamics_.time_step());
+      blocks[static_cast<std::size_t>(i)].add(DiagonalBlock<T>(mass_[i]));
+    }
   }
   void multiply(const Field<T>& p, Field<T>& product) const override {
-    for (Eigen::Index i = 0; i < p.cols(); ++i) product.col(i) += mass(i) * p.col(i);
+    for (Eigen::Index i = 0; i < p.cols(); ++i) product.col(i) += mass_[i] * p.col(i);
   }
 
  private:
   using Term<T>::dynamics_;
-  T mass(Eigen::Index i) const { return force_.implicit_mass(dynamics_.mass(i), dynamics_.time_step()); }
-
   const BodyForce<T>& force_ = dynamics_.body_force();
+  Eigen::Array<T, Eigen::Dynamic, 1> mass_;
 };
 
 /// Springs are sorted by (a, b), so each particle's sum runs over its springs in ascending neighbour index.

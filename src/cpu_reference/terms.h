@@ -1,6 +1,6 @@
 #pragma once
-// The forces that follow from positions and velocities alone: gravity and drag, springs, pulls. One class for
-// each, in the order in which every backend adds them.
+// The forces that follow from positions and velocities alone: gravity and resistance, springs, pulls. One
+// class for each, in the order in which every backend adds them.
 #include <memory>
 #include <utility>
 #include <vector>

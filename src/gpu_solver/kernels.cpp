@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <string_view>
 
@@ -132,7 +133,11 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   }
   layout::Simulation block{};
   block.gravity = rounded(model.simulation.gravity, fall_speed(model));
-  block.drag = static_cast<float>(model.simulation.drag);
+  std::array<float, 4> resistance{};
+  static_assert(std::size(resistance_constants) <= resistance.size());
+  std::ranges::transform(resistance_constants, resistance.begin(),
+                         [&](const auto& row) { return static_cast<float>(model.simulation.*row.value); });
+  block.resistance_constants = std::bit_cast<layout::vec4>(resistance);
   block.contact_distance = static_cast<float>(model.contact.distance);
   block.set_speed = static_cast<float>(model.contact.resting_speed);
   block.resting_speed = static_cast<float>(resting_speed(model));

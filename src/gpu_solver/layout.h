@@ -29,11 +29,11 @@ static_assert(sizeof(Solve) == 192 && offsetof(Solve, lambda) == 64 && offsetof(
 static_assert(sizeof(Terrain) == 80 && offsetof(Terrain, mass) == 48 && offsetof(Terrain, shape) == 64);
 static_assert(offsetof(Simulation, contact_distance) == 16 && offsetof(Simulation, particle_count) == 32);
 static_assert(offsetof(Simulation, class_bits) == 48 && offsetof(Simulation, time_step) == 64);
-static_assert(offsetof(Simulation, stages) == 160);
-static_assert(offsetof(Simulation, spring_classes) == 224);
-static_assert(offsetof(Simulation, terrains) == 224 + 16 * MAX_SPRING_CLASSES);
+static_assert(offsetof(Simulation, stages) == 176);
+static_assert(offsetof(Simulation, spring_classes) == 240);
+static_assert(offsetof(Simulation, terrains) == 240 + 16 * MAX_SPRING_CLASSES);
 // OpenGL 4.3 guarantees uniform blocks of 16 KiB.
-static_assert(sizeof(Simulation) == 224 + 16 * MAX_SPRING_CLASSES + 80 * MAX_TERRAINS &&
+static_assert(sizeof(Simulation) == 240 + 16 * MAX_SPRING_CLASSES + 80 * MAX_TERRAINS &&
               sizeof(Simulation) <= 16384);
 
 }  // namespace aspic::layout

@@ -29,7 +29,8 @@ Status check_constants(const Model& model) {
   const SimulationSettings& s = model.simulation;
   if (!(s.timestep > 0.0) || !fits(s.timestep)) return refused("simulation.timestep");
   if (!fits(s.gravity)) return refused("simulation.gravity");
-  if (!(s.drag >= 0.0) || !fits(s.drag)) return refused("simulation.drag");
+  for (const auto& [constant, name] : resistance_constants)
+    if (!(s.*constant >= 0.0) || !fits(s.*constant)) return refused(fmt::format("simulation.{}", name));
   if (!fits(s.duration)) return refused("simulation.duration");
   if (!fits(s.implicit.tolerance.value_or(0.0))) return refused("simulation.implicit.tolerance");
   const ContactSettings& c = model.contact;

@@ -18,14 +18,13 @@ constexpr double energy_share = 0.15;
 
 /// What balls had that were launched in these steps.
 Measures launched(const Model& model, std::uint64_t after, std::uint64_t until) {
-  Measures sum;
-  for (const Ball& ball : model.balls) {
-    if (!ball.launched(until) || ball.launched(after)) continue;
-    sum.kinetic += 0.5 * ball.mass * dot(ball.initial_velocity, ball.initial_velocity) +
-                   0.5 * ball.inertia() * dot(ball.initial_angular_velocity, ball.initial_angular_velocity);
-    sum.gravitational -= ball.mass * dot(model.simulation.gravity, ball.initial_position);
-  }
-  return sum;
+  Model thrown;
+  thrown.simulation = model.simulation;
+  for (const Ball& ball : model.balls)
+    if (ball.launched(until) && !ball.launched(after)) thrown.balls.push_back(ball);
+  State start = initial_state(thrown, Precision::double_);
+  start.step = until;
+  return measure_motion(thrown, start);
 }
 
 double pull_energy(const State& state, const Inputs& inputs) {

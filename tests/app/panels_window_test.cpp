@@ -554,6 +554,8 @@ TEST_F(Panels, ASecondBodyInABowlStandsAboveTheFirst) {
 
 TEST_F(Panels, SpringsAreShownAndHiddenByType) {
   open("cube-plane", {}, "reference", only("Springs"));
+  for (const auto& row : resistance_constants)
+    EXPECT_TRUE(has("simulation." + std::string(row.name))) << row.name;
   click("springs/show/shear");
   EXPECT_TRUE(app().scene.editor().scene().view.draw.shear);
   EXPECT_TRUE(app().scene.editor().scene().view.draw.solid);

@@ -71,7 +71,7 @@ TEST_P(EveryMethodInAStack, HasTheReferencesBitsOnTerrainThatMovesSideways) {
     SCOPED_TRACE(name_of(contact));
     ModelSettings settings = test::low_cube(4, GetParam(), contact);
     settings.terrain[0].motion = TerrainMotion{{1.0, 0.0, 0.4}, 0.3, 1.1, 0.2};
-    settings.simulation.drag = 0.4;
+    test::resist(settings, 0.4);
     settings.terrain.push_back(
         {.geometry = {{"point", Vec3{2.6, 0.0, 0.0}}, {"normal", Vec3{-1.0, 0.2, 0.0}}}});
     const Model model = test::build(settings);

@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Actuated, EveryMethodWithActuators, testing::ValuesIn(a
 TEST_P(EveryMethodWithActuators, HasTheReferencesBitsOnAnyNumberOfThreads) {
   for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
     ModelSettings settings = test::actuated(GetParam(), contact);
-    settings.simulation.drag = 0.4;
+    test::resist(settings, 0.4);
     const Model model = test::build(settings);
     const Inputs inputs = {.channels = {0.4}};
     const std::uint64_t steps = test::actuated_steps(GetParam());

@@ -94,7 +94,7 @@ TEST(BodiesOnTheCpu, HaveTheReferencesBitsInEveryKindOfMotion) {
 TEST(BodiesOnTheCpu, HaveTheReferencesBitsUnderInputsAndOtherConstants) {
   ModelSettings settings = test::pile(Integrator::midpoint, ContactModel::coulomb);
   settings.balls.push_back({0.3, 2.0, {1.6, 2.2, 0.2}, {-3.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
-  settings.simulation.drag = 0.7;
+  test::resist(settings, 0.7);
   const Model model = test::build(settings);
   settings.contact.body_friction = 0.9;
   settings.contact.body_gap = 0.15;

@@ -1,5 +1,8 @@
 // Linear drag on particles and balls: the terminal velocity, its energy and its stable steps.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <limits>
 
 #include "aspic/analysis.h"
 #include "cpu_reference/reference_solver.h"
@@ -33,7 +36,9 @@ TEST(Drag, LeadsToTheTerminalVelocityUnderEveryMethod) {
 }
 
 TEST(Drag, DissipatesTheEnergyThatIsLost) {
-  const Model model = test::build(falling(0.5, Integrator::runge_kutta_4));
+  ModelSettings settings = falling(0.0, Integrator::runge_kutta_4);
+  test::resist(settings, 0.5);
+  const Model model = test::build(settings);
   const auto solver = std::move(*make_reference_solver(model, Precision::double_));
   const Measures start = measure(model, *solver->state());
   double dissipated = 0.0, before = *start.drag_power;
@@ -48,6 +53,17 @@ TEST(Drag, DissipatesTheEnergyThatIsLost) {
   // Pulls and drag on balls are those of a step's start, so that theirs is an error of first order.
   EXPECT_NEAR(dissipated, lost, 1e-3 * lost);
   EXPECT_FALSE(measure(test::build(falling(0.0, Integrator::midpoint)), *solver->state()).drag_power);
+}
+
+TEST(Drag, IsFiniteAndNotNegative) {
+  for (const auto& row : resistance_constants)
+    for (const double bad : {-1.0, 1e39, std::numeric_limits<double>::quiet_NaN()}) {
+      ModelSettings settings = falling(0.0, Integrator::midpoint);
+      settings.simulation.*row.value = bad;
+      const auto model = build_model(settings);
+      ASSERT_FALSE(model.ok()) << row.name << ' ' << bad;
+      EXPECT_NE(model.error().what.find(fmt::format("simulation.{} ", row.name)), std::string::npos);
+    }
 }
 
 TEST(Drag, LimitsTheStableStep) {

@@ -35,7 +35,7 @@ TEST_F(ActuatedOnTheDevice, HasTheReferencesBits) {
             ? ContactModel::course
             : ContactModel::coulomb;
     ModelSettings settings = test::actuated(integrator, contact);
-    settings.simulation.drag = 0.4;
+    test::resist(settings, 0.4);
     const Model model = test::build(settings);
     const std::uint64_t steps = row_of(integrator).traits.long_steps ? 12 : 120;
     const Inputs inputs = {.channels = {0.4}};

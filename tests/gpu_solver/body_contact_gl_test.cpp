@@ -141,7 +141,7 @@ TEST_F(BodyContactOnTheDevice, HasTheReferencesBitsOfBodiesWithFrictionOfTheirOw
 TEST_F(BodyContactOnTheDevice, HasTheReferencesBitsWithBallsAndInputs) {
   ModelSettings settings = pile(Integrator::midpoint, ContactModel::coulomb);
   settings.balls.push_back({0.3, 2.0, {1.6, 2.2, 0.2}, {-3.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
-  settings.simulation.drag = 0.7;
+  test::resist(settings, 0.7);
   const Model model = test::build(settings);
   Inputs inputs;
   inputs.pulls.push_back({30, {0.0, 2.0, 1.0}, 300.0, 10.0});

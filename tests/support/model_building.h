@@ -30,6 +30,11 @@ inline ModelSettings low_cube(int particles_per_edge, Integrator integrator, Con
   return settings;
 }
 
+/// Sets every constant of the medium's resistance.
+inline void resist(ModelSettings& settings, double constant) {
+  for (const auto& row : resistance_constants) settings.simulation.*row.value = constant;
+}
+
 inline Model build(const ModelSettings& settings) {
   auto model = build_model(settings);
   EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message());

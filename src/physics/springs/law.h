@@ -21,6 +21,16 @@ struct SpringConstants {
         cord(s.cord) {}
 };
 
+/// Constants of all spring classes, this share of a step after its start.
+template <class T>
+std::vector<SpringConstants<T>> classes_at(const Model& model, std::uint64_t step, double share,
+                                           std::span<const double> channels) {
+  std::vector<SpringConstants<T>> classes(model.spring_classes.begin(), model.spring_classes.end());
+  std::size_t n = 0;
+  for (const double r : rest_lengths(model, step, share, channels)) classes[n++].r = static_cast<T>(r);
+  return classes;
+}
+
 /// How a spring with e = xₐ − x_b and v = vₐ − v_b pulls:
 ///   L = |e|,  q = 1/L,  s = k(L − r) + c((v·e)·q)
 /// A spring of no length, and a cord that hangs slack, pull nowhere: then q = s = 0.
@@ -59,11 +69,17 @@ std::pair<Vector<T>, SpringJacobian<T>> linearized(const SpringConstants<T>& spr
   return {-((at.s * at.q) * e), {along, across, Vector<T>(at.q * e)}};
 }
 
-/// ½k(L − r)² [J]; 0 of a slack cord.
+/// L − r [m]; 0 of a slack cord.
+template <class T>
+T stretch(const SpringConstants<T>& spring, T L) {
+  return spring.cord && L < spring.r ? T(0) : L - spring.r;
+}
+
+/// ½k(L − r)² [J]
 template <class T>
 T spring_energy(const SpringConstants<T>& spring, T L) {
-  const T stretch = L - spring.r;
-  return spring.cord && stretch < T(0) ? T(0) : T(0.5) * spring.k * stretch * stretch;
+  const T by = stretch(spring, L);
+  return T(0.5) * spring.k * by * by;
 }
 
 }  // namespace aspic::physics
