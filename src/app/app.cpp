@@ -120,7 +120,7 @@ Status App::release_context(const Error& why) {
   comparison_view.detach();
   ASPIC_CHECK(simulation.rebuild().leave_context(why));
   // What the solver said when it noticed first says more.
-  if (!messages.notice() || !messages.notice()->is_error) messages.error(why);
+  if (!messages.any_error()) messages.error(why);
   pointer.forget();
   picture.detach();
   gui_.reset();
@@ -170,13 +170,11 @@ KeptState App::kept_state() const {
 }
 
 bool App::may_close() {
-  if (closing == Closing::no && scene.editor().changed()) {
-    open_page(Page::none);
-    closing = Closing::asked;
-    touch();
-    return false;
-  }
-  return true;
+  if (closing == Closing::decided || !scene.editor().changed()) return true;
+  open_page(Page::none);
+  closing = Closing::asked;
+  touch();
+  return false;
 }
 
 std::string App::title() const {
@@ -255,7 +253,7 @@ void App::deliver_keys() {
       palette.close();
       messages.dismiss();
     } else {
-      commands_.on_key(event.key, event.modifiers, event.action == GLFW_REPEAT);
+      commands_.on_key(printed_key(event.key), event.modifiers, event.action == GLFW_REPEAT);
     }
   }
 }

@@ -8,6 +8,18 @@
 
 namespace aspic::app {
 
+int printed_key(int key, const char* printed) {
+  const bool of_text = key > GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT;
+  if (!of_text || !printed || static_cast<unsigned char>(printed[0]) >= 0x80 || printed[0] == '\0')
+    return key;
+  const char c = printed[0];
+  return c == '+' ? GLFW_KEY_EQUAL : c >= 'a' && c <= 'z' ? c - 'a' + GLFW_KEY_A : c;
+}
+
+int printed_key(int key) {
+  return printed_key(key, glfwGetKeyName(key, 0));
+}
+
 std::string_view Commands::keys_of(std::string_view name) const {
   const auto found = std::ranges::find(rows_, name, &Command::name);
   return found == rows_.end() ? std::string_view() : found->keys;

@@ -10,7 +10,7 @@ namespace aspic::app {
 struct Command {
   std::string_view keys;        ///< for people: "Ctrl+Z"; empty: a heading of the help page
   std::string_view name;        ///< a phrase, by which buttons refer to the command
-  int key = -1;                 ///< GLFW key, or −1: by character, or by the mouse
+  int key = -1;                 ///< printed_key(), or −1: by character, or by the mouse
   int modifiers = 0;            ///< GLFW modifiers, of Ctrl and Shift exactly these
   char32_t character = 0;       ///< for keys whose place depends on the keyboard's layout; 0: none
   std::function<void()> act{};  ///< empty for what the mouse does, which only the help page lists
@@ -18,6 +18,11 @@ struct Command {
   int other_key = -1;           ///< another GLFW key that does the same
   int ignored = 0;              ///< GLFW modifiers that may be held as well: a pull needs Ctrl
 };
+
+/// The GLFW key of what a keyboard's layout prints on a key (glfwGetKeyName), so that shortcuts follow the
+/// printed letter: keys of text alone, and of these the ones that print ASCII; the others are as they were.
+int printed_key(int key, const char* printed);
+int printed_key(int key);
 
 class Commands {
  public:

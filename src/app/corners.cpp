@@ -112,9 +112,10 @@ void draw_corners(const PanelParts& p, const Box& view) {
   std::vector<Box> legends = taken;
   std::erase_if(legends, [](const Box& box) { return box.right <= box.left; });
   // A message may be where the readout comes to be.
-  if (const ImGuiWindow* const notice = ImGui::FindWindowByName("##notice");
-      notice && notice->WasActive && p.messages.notice())
-    legends.push_back(box_of(*notice));
+  for (std::size_t n = 0; n < p.messages.notices().size(); ++n)
+    if (const ImGuiWindow* const notice = ImGui::FindWindowByName(notice_window(n).c_str());
+        notice && notice->WasActive)
+      legends.push_back(box_of(*notice));
   Box below = view;
   for (const Box& label : labels)
     if (label.right > view.centre_x()) below.top = std::max(below.top, label.bottom);

@@ -1,7 +1,12 @@
 #pragma once
 // What the window says to the user.
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/printable.h"
 #include "base/result.h"
@@ -11,63 +16,90 @@ namespace aspic::app {
 /// What ends a message by itself.
 enum class Until { dismissed, time, divergence_is_over };
 
-/// A message on top of the picture until it is dismissed or replaced.
+/// A message on top of the picture.
 struct Notice {
   std::string text;
   bool is_error = false;
   Until until = Until::dismissed;
   double left = 0.0;      ///< until it disappears, if time ends it [s]
   bool greeting = false;  ///< shown at the bottom of the picture until the motion starts
+  double age = 0.0;       ///< [s]
 };
 
-/// The one message that is shown. An error that leaves nothing to decide disappears as other messages do.
+/// The messages that are shown, the newest last. News takes the place of older news, never of an error. An
+/// error that leaves nothing to decide disappears as news does.
 class Messages {
  public:
+  static constexpr std::size_t most = 3;  ///< at once; the oldest news makes room, then the oldest error
+  static constexpr double fresh_seconds = 1.0;  ///< for which news stays beside newer news
+
   void info(const std::string& text, double seconds = 5.0) {
-    notice_ = Notice{printable(text), false, Until::time, seconds};
+    add({printable(text), false, Until::time, seconds});
   }
   void greet(const std::string& text, double seconds) {
-    notice_ = Notice{printable(text), false, Until::time, seconds, true};
+    add({printable(text), false, Until::time, seconds, true});
   }
   /// The motion starts.
-  void greeting_is_over() {
-    if (notice_ && notice_->greeting) notice_.reset();
-  }
-  void error(const std::string& text, Until until = Until::dismissed) {
-    notice_ = Notice{printable(text), true, until};
-  }
+  void greeting_is_over() { std::erase_if(notices_, &is_greeting); }
+  void error(const std::string& text, Until until = Until::dismissed) { add({printable(text), true, until}); }
   void error(const Error& why) { error(worded(why, FrontEnd::window)); }
   /// What was asked for cannot be done, and nothing has changed.
   void refuse(const Error& why) { refuse(worded(why, FrontEnd::window)); }
-  void refuse(const std::string& text) { notice_ = Notice{printable(text), true, Until::time, 8.0}; }
+  void refuse(const std::string& text) { add({printable(text), true, Until::time, 8.0}); }
   /// Shows the error of a status or result, if it has one; true without.
   template <class Outcome>
   bool check(const Outcome& status) {
     if (!status) error(status.error());
     return status.ok();
   }
-  void dismiss() { notice_.reset(); }
-  void dismiss_error() {
-    if (notice_ && notice_->is_error) notice_.reset();
+  void dismiss() { notices_.clear(); }
+  void dismiss(std::string_view text) {
+    std::erase_if(notices_, [&](const Notice& n) { return n.text == text; });
   }
+  void dismiss_error() { std::erase_if(notices_, &is_error); }
   /// What was refused may be possible now.
   void dismiss_refusal() {
-    if (notice_ && notice_->is_error && notice_->until == Until::time) notice_.reset();
+    std::erase_if(notices_, [](const Notice& n) { return n.is_error && n.until == Until::time; });
   }
   /// The simulation has left its divergence: what was said of it no longer holds.
   void divergence_is_over() {
-    if (notice_ && notice_->until == Until::divergence_is_over) notice_.reset();
+    std::erase_if(notices_, [](const Notice& n) { return n.until == Until::divergence_is_over; });
   }
   /// Once for each picture, `dt` after the last [s].
   void update(double dt) {
-    if (fades() && (notice_->left -= dt) < 0.0) notice_.reset();
+    for (Notice& n : notices_) {
+      n.age += dt;
+      n.left -= n.until == Until::time ? dt : 0.0;
+    }
+    std::erase_if(notices_, [](const Notice& n) { return n.left < 0.0; });
   }
-  const std::optional<Notice>& notice() const { return notice_; }
-  /// Whether time will end the message that is shown.
-  bool fades() const { return notice_ && notice_->until == Until::time; }
+  const std::vector<Notice>& notices() const { return notices_; }
+  /// The newest one.
+  std::optional<Notice> notice() const {
+    return notices_.empty() ? std::nullopt : std::optional(notices_.back());
+  }
+  bool any_error() const { return std::ranges::any_of(notices_, &is_error); }
+  /// Whether time will end one of them.
+  bool fades() const {
+    return std::ranges::any_of(notices_, [](const Notice& n) { return n.until == Until::time; });
+  }
 
  private:
-  std::optional<Notice> notice_;
+  static bool is_error(const Notice& n) { return n.is_error; }
+  static bool is_greeting(const Notice& n) { return n.greeting; }
+
+  void add(Notice notice) {
+    std::erase_if(notices_, [&](const Notice& n) {
+      return n.text == notice.text || (!n.is_error && (n.greeting || n.age > fresh_seconds));
+    });
+    if (notices_.size() == most) {
+      const auto news = std::ranges::find(notices_, false, &Notice::is_error);
+      notices_.erase(news == notices_.end() ? notices_.begin() : news);
+    }
+    notices_.push_back(std::move(notice));
+  }
+
+  std::vector<Notice> notices_;
 };
 
 }  // namespace aspic::app

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/panel.h"
 #include "app/panels.h"
@@ -59,27 +60,38 @@ void notice_text(std::string_view text, float width) {
 
 }  // namespace
 
-/// As wide as its text needs: at the left, or at the right of a film's text, or below where runs have their
-/// names above.
-void notice_panel(const PanelParts& parts, const Box& view) {
+/// Each as wide as its text needs, one below the other: at the left, or at the right of a film's text, or
+/// upwards from below where runs have their names above.
+void notice_panels(const PanelParts& parts, const Box& view) {
   Messages& messages = parts.messages;
-  if (!messages.notice()) return;
-  const Notice notice = *messages.notice();
   const double scale = parts.gui.scale();
   const double room = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
   if (room < 80.0 * scale) return;
-  const bool right = parts.picture.film && parts.picture.film->text,
-             low = parts.comparison.several() || notice.greeting;
-  ImGui::SetNextWindowPos(at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale,
-                             low ? view.bottom - 16.0 * scale : view.top + 16.0 * scale),
-                          ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
-  const Panel panel("##notice", 6.0 * scale,
-                    notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f),
-                    // Taking the focus would end a drag, and typing.
-                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-  notice_text(notice.text, static_cast<float>(room) - 2.0f * ImGui::GetStyle().WindowPadding.x);
-  if (parts.simulation.divergence()) divergence_buttons(parts.gui, parts.simulation, parts.run, messages);
-  if (button(parts.gui, "notice/close", "Close", "Dismisses this message (Escape).")) messages.dismiss();
+  const bool right = parts.picture.film && parts.picture.film->text;
+  const std::vector<Notice> notices = messages.notices();
+  const auto waits = [](const Notice& n) { return n.until == Until::divergence_is_over; };
+  const auto of_divergence = std::ranges::find_if(notices, waits);
+  double y = 16.0 * scale;
+  for (std::size_t n = 0; n < notices.size(); ++n) {
+    const Notice& notice = notices[n];
+    const bool low = parts.comparison.several() || notice.greeting;
+    ImGui::SetNextWindowPos(at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale,
+                               low ? view.bottom - y : view.top + y),
+                            ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
+    const Panel panel(
+        notice_window(n).c_str(), 6.0 * scale,
+        notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f),
+        // Taking the focus would end a drag, and typing.
+        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+    notice_text(notice.text, static_cast<float>(room) - 2.0f * ImGui::GetStyle().WindowPadding.x);
+    if (parts.simulation.divergence() &&
+        (of_divergence == notices.end() ? n + 1 == notices.size() : &notice == &*of_divergence))
+      divergence_buttons(parts.gui, parts.simulation, parts.run, messages);
+    if (button(parts.gui, n == 0 ? "notice/close" : fmt::format("notice/close {}", n + 1).c_str(), "Close",
+               "Dismisses this message (Escape)."))
+      messages.dismiss(notice.text);
+    y += ImGui::GetWindowHeight() + 8.0 * scale;
+  }
 }
 
 void help_panel(Gui& gui, bool& visible, double width, double height) {
@@ -138,8 +150,7 @@ void closing_panel(Gui& gui, Closing& closing, double width, double height) {
   const Panel panel("##closing", 8.0 * gui.scale(), ImVec4(0.23f, 0.11f, 0.09f, 0.97f),
                     ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::TextUnformatted("The scene has unsaved changes.");
-  if (button(gui, "closing/close", "Close without saving",
-             "Closes the window without saving, as a second close does."))
+  if (button(gui, "closing/close", "Close without saving", "Closes the window and discards the changes."))
     closing = Closing::decided;
   ImGui::SameLine();
   if (command_button(gui, "closing/save", "Save…", "Writes the scene to a file.", "save the scene"))

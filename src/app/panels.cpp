@@ -305,7 +305,7 @@ void draw_panels(const PanelParts& p, double width, double height) {
   p.comparison_view.place(view);
   const Box corners = layout.panels ? action_bar(p, view) : view;
   draw_corners(p, corners);
-  notice_panel(p, corners);
+  notice_panels(p, corners);
   help_panel(p.gui, p.help_visible, width, height);
   closing_panel(p.gui, p.closing, width, height);
   p.files.draw(p.gui, width, height);

@@ -131,12 +131,16 @@ void draw_edited_layer(const PanelParts& parts);
 /// What the colours mean, in the lower right corner of the view. Returns its place, with the gap below and
 /// next to it; empty if there is none. `name` is that of its widget.
 Box draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view);
+/// ImGui's name of the window of the n-th message.
+inline std::string notice_window(std::size_t n) {
+  return "##notice" + std::to_string(n);
+}
 /// Labels of the runs compared; what colours and arrows mean, one above the other; the time in large
 /// figures; what is under the mouse; and the world's axes where these leave room, in the upper right corner
 /// if they can.
 void draw_corners(const PanelParts& parts, const Box& view);
-/// The message, over the view; the page of keys; and what is asked before changes are lost.
-void notice_panel(const PanelParts& parts, const Box& view);
+/// The messages, over the view; the page of keys; and what is asked before changes are lost.
+void notice_panels(const PanelParts& parts, const Box& view);
 void help_panel(Gui& gui, bool& visible, double width, double height);
 void closing_panel(Gui& gui, Closing& closing, double width, double height);
 /// Where ImGui's window is that is being made.

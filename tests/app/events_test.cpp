@@ -258,9 +258,33 @@ TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
   catch_up();
   ASSERT_FALSE(ended()) << "it asks: the change would be lost";
   ask_to_close();
+  catch_up();
+  ASSERT_FALSE(ended()) << "a second click loses nothing";
+  key("Escape ctrl+z");
+  EXPECT_TRUE(waited_for([&] { return title().starts_with("cube-plane -"); })) << title();
+  ask_to_close();
   EXPECT_EQ(exit_code(), 0) << log();
   EXPECT_TRUE(exists(picture(2, 1)));
   EXPECT_FALSE(exists(picture(2, 2))) << "Space had paused the motion";
+}
+
+TEST_F(Events, ShortcutsFollowThePrintedLetter) {
+  keep(one_picture_a_step(find_film_format("mp4")));
+  for (const std::string layout : {"de", "fr"}) {
+    ASSERT_EQ(std::system(("setxkbmap " + layout).c_str()), 0);
+    start();
+    for (const auto& [name, changed] : {std::pair{"a", true}, {"ctrl+z", false}, {"ctrl+y", true}}) {
+      key(name);
+      const std::string wanted = changed ? "cube-plane (changed)" : "cube-plane -";
+      EXPECT_TRUE(waited_for([&] { return title().starts_with(wanted); }))
+          << layout << ' ' << name << title();
+    }
+    key("ctrl+z");
+    EXPECT_TRUE(waited_for([&] { return title().starts_with("cube-plane -"); })) << title();
+    ask_to_close();
+    EXPECT_EQ(exit_code(), 0) << log();
+  }
+  EXPECT_EQ(std::system("setxkbmap us"), 0);
 }
 
 TEST_F(Events, HeadingsOpenAtOnceAfterAShortcut) {
