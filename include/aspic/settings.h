@@ -1,7 +1,6 @@
 #pragma once
-// What a scene says about physics: plain data, SI units. Legal ranges and one-sentence meanings are in the
-// parameter table (scene/parameter_table.cpp), which feeds the parser, overrides, `scene show` and the
-// documentation.
+// Physics of a scene: plain data, SI units. The parameter table (scene/parameter_table.cpp) has legal ranges
+// and meanings for the parser, overrides, `scene show` and the documentation.
 #include <array>
 #include <cstdint>
 #include <map>
@@ -38,8 +37,7 @@ using GeometryValue = std::variant<double, Vec3>;
 /// Most vectors, and most numbers, of one shape.
 inline constexpr std::size_t geometry_size = 3;
 
-/// A shape's geometry: its vectors in the order of the keys, and its numbers in the order of the keys. In
-/// GLSL, terrains[t].geometry[k] is (vector k, number k).
+/// A shape's geometry. In GLSL, terrains[t].geometry[k] is (vector k, number k).
 template <class T>
 struct Geometry {
   std::array<Vec<T>, geometry_size> vectors = {};  ///< in the order of the keys that hold vectors
@@ -111,8 +109,7 @@ struct TerrainMotion {
   double phase = 0.0;                ///< in turns
 };
 
-/// One terrain of the scene. Absent values take the shape's defaults (terrain_shapes) or the scene's
-/// contact values.
+/// One terrain. Absent values are the shape's defaults (terrain_shapes) or the scene's contact values.
 struct TerrainSettings {
   TerrainShape shape = TerrainShape::plane;  ///< decides which keys `geometry` may have
   /// By key, of the kind that the key has: shapes say which keys they have.
