@@ -175,10 +175,8 @@ void ComparisonView::place(const Box& whole) {
 void ComparisonView::share_colours() {
   const bool active = comparison_.active();
   picture_.common_range.reset();
-  // A film without names shows each run as it would be alone.
-  const bool marked = active && !(picture_.film && !picture_.film->text);
   for (std::size_t i = 0; i < comparison_.count(); ++i)
-    picture(i).tint = marked ? std::optional(run_tint(i)) : std::nullopt;
+    picture(i).tint = active ? std::optional(run_tint(i)) : std::nullopt;
   const ViewSettings& view = comparison_.scene(0).view;
   if (!active || !has_scale(view.colour)) return;
   QuantityRange range = picture_.own_range();

@@ -133,22 +133,23 @@ void Film::end() {
   canvas_.reset();
 }
 
-/// Options of a run's image: those of aspic run, alone or with --variant.
+/// Options of a run's image: those of aspic run, alone or with --variant. Several runs always have their
+/// names.
 FilmLook Film::look_of(std::size_t run) const {
   const PictureSize& size = recording_->options().size;
   if (!comparison_.active()) return {size, settings.text};
   const Tile tile = tiles_of(size, comparison_.count())[run];
-  FilmLook look = {{tile.width, tile.height}, settings.text};
+  FilmLook look = {{tile.width, tile.height}, true};
   look.text_height = comparison_text_height(size.height, comparison_.count());
   look.label =
       comparison_text(comparison_view_.name(run), run, comparison_.shown_time(run),
                       comparison_.run(run).model().simulation.timestep, comparison_.shown_divergence(run));
-  if (run == 0) look.label = below_author(comparison_.scene(0), std::move(look.label));
+  if (settings.text && run == 0) look.label = below_author(comparison_.scene(0), std::move(look.label));
   // One legend for all that share a scale.
   const ViewSettings &own = comparison_.scene(run).view,
                      &last = comparison_.scene(comparison_.count() - 1).view;
-  look.legend = run + 1 == comparison_.count() || own.scale != last.scale || own.colour != last.colour ||
-                (own.arrows.any() && !own.arrow_scale);
+  look.legend = settings.text && (run + 1 == comparison_.count() || own.scale != last.scale ||
+                                  own.colour != last.colour || (own.arrows.any() && !own.arrow_scale));
   return look;
 }
 
@@ -166,7 +167,7 @@ Status Film::draw() {
   canvas_->divide(comparison_.count());
   for (std::size_t i = 0; i < comparison_.count(); ++i) {
     ASPIC_CHECK(comparison_view_.picture(i).draw());
-    canvas_->place(i, comparison_view_.picture(i).pixels(), settings.text);
+    canvas_->place(i, comparison_view_.picture(i).pixels(), true);
   }
   return {};
 }

@@ -123,15 +123,17 @@ void FilmFile::fail(const Error& error) {
 void FilmFile::add(ComparisonView& view) {
   const Comparison& comparison = view.comparison();
   if (complete()) return;
-  if (models_ != models_of(comparison) || !goes_on(comparison)) return finish();
+  if (models_ != models_of(comparison)) return finish("a value was changed or a ball was thrown.");
+  if (!goes_on(comparison)) return finish("a live page cannot repeat a pull or pin.");
   States states;
   for (std::size_t i = 0; i < comparison.count(); ++i) {
     states.push_back(&view.picture(i).shown_state());
-    if (pictures_ > 0 && states[i]->step < last_[i].step) return finish();
+    if (pictures_ > 0 && states[i]->step < last_[i].step) return finish("a run went back.");
   }
   if (const Status written = write(comparison, states); !written) {
     // What cannot be added may still be the end of what there is.
-    return pictures_ > 0 && written.error().code == ErrorCode::usage ? finish() : fail(written.error());
+    if (pictures_ == 0 || written.error().code != ErrorCode::usage) return fail(written.error());
+    return finish(worded(written.error(), FrontEnd::window));
   }
   for (std::size_t i = 0; i < states.size(); ++i) {
     last_[i] = *states[i];
@@ -140,7 +142,7 @@ void FilmFile::add(ComparisonView& view) {
   ++pictures_;
 }
 
-void FilmFile::finish() {
+void FilmFile::finish(std::string_view why) {
   if (complete()) return;
   if (pictures_ == 0)
     return fail({ErrorCode::io, fmt::format("{} was not written: the video has no frame.", path())});
@@ -148,6 +150,7 @@ void FilmFile::finish() {
   for (const State& state : last_) states.push_back(&state);
   if (const Status written = complete_with(states, divergences_); !written) return fail(written.error());
   said_ = sentence(pictures_);
+  if (!why.empty()) said_ += fmt::format(" It ends before the video: {}", why);
 }
 
 Result<std::unique_ptr<FilmFile>> start_film_page(const std::string& path, ComparisonView& view,

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/comparison_view.h"
@@ -22,8 +23,8 @@ class FilmFile {
   /// Adds what the pictures show.
   void add(ComparisonView& view);
   bool complete() const { return !said_.empty(); }
-  /// Completes the file with the last picture.
-  void finish();
+  /// Completes the file with the last picture; `why` it ends before the film does.
+  void finish(std::string_view why = "");
   /// What became of it, a sentence, and whether that is bad news.
   const std::string& said() const { return said_; }
   bool failed() const { return failed_; }

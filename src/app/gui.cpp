@@ -156,7 +156,10 @@ bool Gui::ready_for(const KeyEvent& event) const {
 void Gui::key(const KeyEvent& event) {
   if (event.character != 0) return ImGui::GetIO().AddInputCharacter(event.character);
   // What GLFW says of modifiers lacks the key of the event itself; this keeps its own account.
-  ImGui_ImplGlfw_KeyCallback(services_.window, event.key, 0, event.action, event.modifiers);
+  // In a list ImGui takes the space bar where others take Enter.
+  const bool enters = event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+  const int key = enters && list_is_open() ? GLFW_KEY_SPACE : event.key;
+  ImGui_ImplGlfw_KeyCallback(services_.window, key, 0, event.action, event.modifiers);
 #if IMGUI_VERSION_NUM >= 18900
   tell_modifiers(event);
 #endif
@@ -183,7 +186,12 @@ void Gui::scroll(double dx, double dy) {
 
 bool Gui::takes_keyboard() const {
   // A field that the last picture opened or closed counts already.
-  return ImGui::IsAnyItemActive() && ImGui::GetCurrentContext()->WantTextInputNextFrame == 1;
+  return list_is_open() ||
+         (ImGui::IsAnyItemActive() && ImGui::GetCurrentContext()->WantTextInputNextFrame == 1);
+}
+
+bool Gui::list_is_open() {
+  return !ImGui::GetCurrentContext()->OpenPopupStack.empty();
 }
 
 bool Gui::takes_mouse() const {
@@ -215,6 +223,11 @@ void Gui::begin(const WindowSize& size, double dt) {
     io.MouseDown[i] = pressed_[i] || held_[i];
     pressed_[i] = false;
   }
+  // Arrows, Enter and Escape act on lists alone: elsewhere they are the window's.
+  if (list_is_open())
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  else
+    io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
   ImGui::NewFrame();
   changed_.clear();
   edited_ = awake_ = false;

@@ -81,6 +81,8 @@ class Gui {
   void scroll(double dx, double dy);
   /// Whether a text field has the keyboard, or a panel the mouse.
   bool takes_keyboard() const;
+  /// Whether a list of choices is open, which keys then move through.
+  static bool list_is_open();
   bool takes_mouse() const;
 
   /// Begins the panels of a picture of a window that is not empty, `dt` ≥ 0 after the last [s].

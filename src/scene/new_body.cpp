@@ -20,8 +20,9 @@ namespace {
 struct Extent {
   Vec3 low, high;
   Vec3 centre() const { return 0.5 * (low + high); }
-  bool meets(const Extent& other) const {
-    for (int axis = 0; axis < 3; ++axis)
+  /// Whether one is above or below the other, or in it.
+  bool shares_column(const Extent& other) const {
+    for (const int axis : {0, 2})
       if (low[axis] >= other.high[axis] || high[axis] <= other.low[axis]) return false;
     return true;
   }
@@ -173,7 +174,7 @@ Vec3 dropped(const Bodies& body, const Extent& box, const Bodies& there) {
 
 /// Next to the others, or above them where there is no place, as in a bowl.
 Vec3 set_aside(const Bodies& body, const Extent& box, const Extent& there) {
-  if (!box.meets(there)) return raised(body, {});
+  if (!box.shares_column(there)) return raised(body, {});
   const Vec3 beside = raised(body, {there.high.x + 0.5 * (box.high.x - box.low.x) - box.low.x, 0.0, 0.0});
   const Vec3 above = raised(body, {0.0, there.high.y + 0.5 * (box.high.y - box.low.y) - box.low.y, 0.0});
   return body.depth(beside) <= body.depth(above) ? beside : above;

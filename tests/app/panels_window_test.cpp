@@ -72,6 +72,19 @@ TEST_F(Panels, ScenesAreChosenByClick) {
 TEST_F(Panels, WordsAndFlagsFollowTheTable) {
   open("cube-plane");
   click("simulation.integrator");
+  ASSERT_TRUE(widgets().contains("simulation.integrator/midpoint"));
+  press(GLFW_KEY_ESCAPE);
+  frames(2);
+  EXPECT_FALSE(widgets().contains("simulation.integrator/midpoint")) << "Escape closes the list";
+  click("simulation.integrator");
+  const Integrator before = settings().simulation.integrator;
+  for (const int key : {GLFW_KEY_DOWN, GLFW_KEY_ENTER}) {
+    press(key);
+    frames(2);
+  }
+  EXPECT_NE(settings().simulation.integrator, before) << "the next one of the list";
+  EXPECT_FALSE(widgets().contains("simulation.integrator/midpoint"));
+  click("simulation.integrator");
   click("simulation.integrator/runge-kutta-4");
   EXPECT_EQ(settings().simulation.integrator, Integrator::runge_kutta_4);
   EXPECT_EQ(simulation().model().simulation.integrator, Integrator::runge_kutta_4);

@@ -102,5 +102,13 @@ TEST(NewBody, ClothIsDroppedFromAboveToo) {
   EXPECT_NEAR(heights(scene, 1).first - heights(scene, 0).second, 0.3, 1e-9);
 }
 
+TEST(NewBody, StandsUnderNoOther) {
+  Scene scene = load_scene("cube-plane").value();
+  add_body(scene, list_of("goal-net"));
+  const GoalNetSettings& net = scene.model.goal_nets.at(0);
+  const CubeSettings& cube = scene.model.cubes.at(0);
+  EXPECT_GT(std::abs(net.position.x - cube.position.x), 0.5 * (net.size.x + cube.edge_length));
+}
+
 }  // namespace
 }  // namespace aspic::test
