@@ -297,8 +297,7 @@ void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
     }
     ImGui::PopID();
   }
-  for (const auto& constant : resistance_constants)
-    edit(gui, scene, fmt::format("simulation.{}", constant.name));
+  for (const auto& [_, key] : resistance_constants) edit(gui, scene, fmt::format("simulation.{}", key));
   shown_springs(gui, scene);
 }
 

@@ -567,8 +567,7 @@ TEST_F(Panels, ASecondBodyInABowlStandsAboveTheFirst) {
 
 TEST_F(Panels, SpringsAreShownAndHiddenByType) {
   open("cube-plane", {}, "reference", only("Springs"));
-  for (const auto& row : resistance_constants)
-    EXPECT_TRUE(has("simulation." + std::string(row.name))) << row.name;
+  for (const auto& [_, key] : resistance_constants) EXPECT_TRUE(has("simulation." + std::string(key))) << key;
   click("springs/show/shear");
   EXPECT_TRUE(app().scene.editor().scene().view.draw.shear);
   EXPECT_TRUE(app().scene.editor().scene().view.draw.solid);
