@@ -54,13 +54,15 @@ int show(const ViewOptions& view) {
   std::string title;
   const InterruptGuard guard;
   std::optional<Error> error;
-  while (!error && !(*window)->should_close() && !guard.interrupted()) {
+  const auto ended = [&] { return guard.interrupted() || Window::is_lost(); };
+  while (!error && !(*window)->should_close() && !ended()) {
     const auto since_last = [&] { return std::chrono::duration<double>(Clock::now() - last).count(); };
     double wait = 0.0;
     do {
       (*window)->poll(wait);
       wait = std::max((*app)->wait(since_last()), (*window)->picture_interval() - since_last());
-    } while (wait > 0.0 && !(*window)->should_close() && !guard.interrupted());
+    } while (wait > 0.0 && !(*window)->should_close() && !ended());
+    if (ended()) break;
     if (((*window)->should_close() && !(*app)->may_close()) || (*app)->closes())
       (*window)->set_should_close((*app)->closes());
     const auto now = Clock::now();
@@ -85,11 +87,14 @@ int show(const ViewOptions& view) {
   (*window)->set_receiver(nullptr);
   if (!error) {
     KeptState left = (*app)->kept_state();
-    left.window = (*window)->place();
+    if (!Window::is_lost()) left.window = (*window)->place();
     // What cannot be kept is no reason to fail: nothing of the user's is lost.
     if (const Status saved = save_kept_state(left, kept_path); !saved)
       print_message(worded(saved.error(), FrontEnd::command_line));
   }
+  if (Window::is_lost())
+    error =
+        Error{ErrorCode::no_device, "The display was lost. Unsaved changes of the scene are lost as well."};
   if (error) return fail(*error);
   return interrupted ? static_cast<int>(ErrorCode::interrupted) : 0;
 }

@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,6 +55,24 @@ double refresh_interval() {
   return 1.0 / (mode && mode->refreshRate > 0 ? mode->refreshRate : 60);
 }
 
+bool display_lost = false;
+
+/// Xlib ends a program as soon as its display is lost, which would lose videos and settings. With these two
+/// handlers, the second of libX11 1.7, it continues without a display.
+void outlive_display() {
+  using GetDisplay = void* (*)();
+  using SetHandler = void* (*)(int (*)(void* display));
+  using SetExitHandler = void (*)(void* display, void (*)(void* display, void* data), void* data);
+  const auto get = reinterpret_cast<GetDisplay>(dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
+  const auto set = reinterpret_cast<SetHandler>(dlsym(RTLD_DEFAULT, "XSetIOErrorHandler"));
+  const auto set_exit = reinterpret_cast<SetExitHandler>(dlsym(RTLD_DEFAULT, "XSetIOErrorExitHandler"));
+  void* const display = get && set && set_exit ? get() : nullptr;
+  if (!display) return;
+  set([](void*) { return 0; });
+  set_exit(
+      display, [](void*, void*) { display_lost = true; }, nullptr);
+}
+
 /// Whether enough of a window there can be seen to take hold of it.
 bool on_a_monitor(const std::array<int, 2>& position) {
   int count = 0;
@@ -99,6 +118,7 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
                 "a software one). {}",
                 last_error(), instead);
   if (position && on_a_monitor(*position)) glfwSetWindowPos(w->window_, (*position)[0], (*position)[1]);
+  outlive_display();
   glfwShowWindow(w->window_);
   glfwMakeContextCurrent(w->window_);
   // Under Wayland a swap that waits for the display waits for as long as the window is hidden.
@@ -181,6 +201,10 @@ double Window::content_scale() const {
   const WindowSize s = size();
   const double ratio = s.width > 0 ? static_cast<double>(s.pixel_width) / s.width : 1.0;
   return std::clamp(static_cast<double>(std::max(x, y)) / ratio, 0.75, 4.0);
+}
+
+bool Window::is_lost() {
+  return display_lost;
 }
 
 bool Window::should_close() const {

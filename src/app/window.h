@@ -49,6 +49,8 @@ class Window {
   /// Of a full screen that to come back to. Wayland has no positions.
   WindowPlace place() const;
   double content_scale() const;
+  /// Whether the display is gone, and every window with it.
+  static bool is_lost();
   bool should_close() const;
   void set_should_close(bool close);
   void set_title(const std::string& title);

@@ -351,6 +351,28 @@ TEST_F(Events, ASignalWhileAFilmRunsLeavesItWhole) {
   }
 }
 
+TEST_F(Events, VideoAndSettingsOutliveTheDisplay) {
+  app::KeptState kept = one_picture_a_step(find_film_format("mp4"));
+  keep(kept);
+  const std::string display = test::variable("DISPLAY"), other = directory() / "display";
+  close_window();
+  const std::string server =
+      output_of(fmt::format("Xvfb -displayfd 3 -screen 0 1280x720x24 >/dev/null 2>&1 3>{} & echo $!", other));
+  std::string number;
+  ASSERT_TRUE(waited_for([&] { return std::getline(std::ifstream(other), number) && !number.empty(); }));
+  ::setenv("DISPLAY", (":" + number).c_str(), 1);
+  start();
+  key("plus ctrl+r");
+  key("period period period");
+  catch_up();
+  ASSERT_EQ(::kill(std::stoi(server), SIGKILL), 0);
+  EXPECT_EQ(exit_code(), 4) << log();
+  ::setenv("DISPLAY", display.c_str(), 1);
+  EXPECT_THAT(log(), testing::HasSubstr("The display was lost."));
+  EXPECT_EQ(frames_of("aspic-cube-plane-0001.mp4"), 2) << "at twice the speed one for two steps";
+  EXPECT_NEAR(app::load_kept_state(app::kept_state_path())->speed, 2.0 * kept.speed, 1e-9);
+}
+
 TEST_F(Events, AnEncoderThatHangsDoesNotHoldUpTheEnd) {
   keep(one_picture_a_step(find_film_format("mp4")));
   start_with_ffmpeg("exec sleep 600\n");
