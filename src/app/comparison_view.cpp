@@ -198,6 +198,8 @@ Status ComparisonView::show(const WindowSize& window) {
     ghost_->shadows = false;
     ghost_->at_rest = picture_.at_rest;
     ghost_->at_once = picture_.at_once;
+    ghost_->film.reset();
+    if (picture_.film) ghost_->film = FilmLook{picture_.film->size};
     ASPIC_CHECK(ghost_->show(window, boxes_.front()));
   }
   for (std::size_t i = 1; i < comparison_.count(); ++i) {

@@ -52,6 +52,8 @@ class ComparisonView {
   /// The run so far is the ghost from now on, pale over the picture of run 0, instead of another one.
   void keep_ghost();
   void remove_ghost();
+  /// The ghost as it is drawn; null: there is none.
+  const ScenePicture* ghost() const { return ghost_.get(); }
   /// Before the runs move: there are those that the editor has, and the ghost is of its scene.
   void match_editor();
   /// ComparisonClock::go_to(), with the scene's values of that time.

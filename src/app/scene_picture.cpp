@@ -153,7 +153,7 @@ Result<PictureOptions> ScenePicture::options_of(const Content& content, bool leg
     options.text = film->label.empty() ? overlay_lines(scene_, simulation_.time()) : film->label;
   if (film) options.text_height = film->text_height;
   options.shadows = shadows;
-  options.axes = legend || film;
+  options.axes = legend || (film && !ghost);
   // Of the very state that is drawn, and with the inputs that acted in it.
   if (options.view.arrows.any() && !kept()) ASPIC_CHECK(refresh());
   const Playback& playback = simulation_.playback();

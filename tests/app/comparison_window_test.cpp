@@ -605,6 +605,16 @@ TEST_F(Comparison, AGhostShowsAnEarlierRunAtTheSameTime) {
   app().run.go_to(static_cast<double>(pulled_to) * earlier.model.simulation.timestep);
   settled();
   EXPECT_EQ(state_hash_text(comparison().ghost()->simulation().snapshot()), pulled) << "hands are part of it";
+  // A video that is narrower than the view has margins; the ghost stands where the run does.
+  app().film.settings = {find_film_format("png"), 20.0, false, "film"};
+  press(GLFW_KEY_R, GLFW_MOD_CONTROL);
+  frames(1);
+  resize(roomy[0], roomy[1]);
+  frames(2);
+  EXPECT_LT(app().picture.shown().right - app().picture.shown().left,
+            app().view.box.right - app().view.box.left - 8.0);
+  EXPECT_EQ(comparison_view().ghost()->shown(), app().picture.shown());
+  press(GLFW_KEY_R, GLFW_MOD_CONTROL);
   press(GLFW_KEY_G, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
   frames(2);
   EXPECT_EQ(comparison().ghost(), nullptr);
