@@ -82,6 +82,10 @@ int buttons_of_a_line() {
 /// A button for each kind of body, and for a mesh.
 void add_buttons(Gui& gui, SceneControl& scene, CellEditor& cells) {
   group_heading("Add a body");
+  // Rows of a body that was added above would move the buttons away under the mouse.
+  const float y = ImGui::GetCursorScreenPos().y;
+  if (gui.held_y) ImGui::SetScrollY(ImGui::GetScrollY() + y - *gui.held_y);
+  gui.held_y.reset();
   const int columns = buttons_of_a_line();
   const float width = share_of_line(columns);
   int column = 0;
@@ -94,6 +98,7 @@ void add_buttons(Gui& gui, SceneControl& scene, CellEditor& cells) {
         fmt::format("Adds a {}{} in free space. Restarts the simulation.\n\nScene key: [[{}]]", noun,
                     list.size(scene.scene().model) > 0 && !box ? ", like the last one," : "", list.key);
     if (!button(gui, fmt::format("{}/add", kind.name).c_str(), kind.label, help, true, width)) continue;
+    gui.held_y = y;
     if (box)
       scene.change("add box", [](Scene& s) { add_box(s); });
     else

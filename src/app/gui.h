@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -97,6 +98,8 @@ class Gui {
   /// The picture that is made shows something under way: the next one will differ without an event.
   void keep_awake() { awake_ = true; }
   bool awake() const { return awake_; }
+  /// Where the widgets stay that the last picture had there, although rows are added above [window units].
+  std::optional<float> held_y;
   /// Three times as tall as the text, for figures and letters alone.
   ImFont* large_font() const { return large_font_; }
   const WindowServices& services() const { return services_; }

@@ -79,6 +79,18 @@ layers = [
 ]
 )";
 
+TEST_F(Building, ButtonsStayUnderTheMouseWhileRowsAreAddedAbove) {
+  open_with("cube-plane", {"Springs", "Bodies"});
+  bring_into_sight("cube/add");
+  const Box before = widgets().at("cube/add");
+  for (const std::size_t cubes : {2u, 3u}) {
+    click("cube/add");
+    frames(4);
+    EXPECT_EQ(settings().cubes.size(), cubes);
+    EXPECT_NEAR(widgets().at("cube/add").top, before.top, 1.5);
+  }
+}
+
 TEST_F(Building, CellsArePaintedByMouseAndSavedAsAPersonWouldWriteThem) {
   open_with(file("beam.toml", beam), {"Cells"});
   const std::uint32_t particles = simulation().model().particle_count();
