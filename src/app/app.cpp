@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "analysis/stability.h"
 #include "app/add_mesh.h"
 #include "app/panels.h"
+#include "base/printable.h"
 #include "run/backends.h"
 #include "run/run_files.h"
 #include "run/window_host.h"
@@ -178,7 +180,9 @@ bool App::may_close() {
 }
 
 std::string App::title() const {
-  return fmt::format("{}{} - Aspic", scene.scene().name, scene.editor().changed() ? " (changed)" : "");
+  const std::filesystem::path source = scene.editor().source();
+  return fmt::format("{}{} - Aspic", printable(source.filename().string()),
+                     scene.editor().changed() ? " (changed)" : "");
 }
 
 bool App::idle() const {

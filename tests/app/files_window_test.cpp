@@ -210,6 +210,7 @@ TEST_F(Files, AFileThatWasWrittenIsAChangeThatCanBeUndone) {
   EXPECT_NE(simulation().model().contact.friction, 0.35);
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("Undo restores"));
   EXPECT_FALSE(app().scene.editor().changed());
+  EXPECT_EQ(app().title(), "mine.toml - Aspic");
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   frames(3);
   EXPECT_EQ(simulation().model().contact.friction, 0.35) << "the changes made here";
