@@ -34,7 +34,7 @@ ModelSettings cube(int n) {
   return settings;
 }
 
-/// The scene cube-plane, half a metre above the ground.
+/// The scene cube-plane, half a meter above the ground.
 Model landing(int n) {
   ModelSettings settings = cube(n);
   settings.cubes[0].position.y = 1.5;

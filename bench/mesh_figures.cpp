@@ -7,7 +7,7 @@
 #include "checked.h"
 #include "mesh/read_mesh.h"
 #include "mesh/shapes.h"
-#include "mesh/voxelise.h"
+#include "mesh/voxelize.h"
 #include "mesh/winding.h"
 #include "model/skin.h"
 
@@ -20,12 +20,12 @@ const std::string& file() {
   return made;
 }
 
-void voxelise_file(benchmark::State& state) {
+void voxelize_file(benchmark::State& state) {
   const int cells = static_cast<int>(state.range(0));
   double full = 0.0, share = 0.0;
   for ([[maybe_unused]] auto _ : state) {
     const MeshFile read = checked(parse_stl(file(), "torus.stl"));
-    const VoxelisedMesh made = checked(voxelise(read.mesh, {.cells = cells}, "torus.stl"));
+    const VoxelizedMesh made = checked(voxelize(read.mesh, {.cells = cells}, "torus.stl"));
     std::vector<Vec3> in_cells = made.skin.vertices;
     for (Vec3& v : in_cells) v = (v - made.grid.origin) / made.grid.size;
     benchmark::DoNotOptimize(bind_skin(lattice_of(made.grid), in_cells));
@@ -35,7 +35,7 @@ void voxelise_file(benchmark::State& state) {
   state.counters["full cells"] = full;
   state.counters["volume/true"] = share;
 }
-BENCHMARK(voxelise_file)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+BENCHMARK(voxelize_file)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 
 void read_and_repair(benchmark::State& state) {
   for ([[maybe_unused]] auto _ : state)

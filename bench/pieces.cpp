@@ -185,7 +185,7 @@ void reduction(State& state) {
 void incident_lists(State& state) {
   const Body cube(cube_settings(static_cast<int>(state.range(0))));
   while (state.KeepRunning())
-    benchmark::DoNotOptimize(incident_springs(cube.model, IncidentWords::neighbours));
+    benchmark::DoNotOptimize(incident_springs(cube.model, IncidentWords::neighbors));
   count_items(state, "springs", count(cube.model).springs());
 }
 

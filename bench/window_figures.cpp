@@ -1,4 +1,4 @@
-// What the window manages on this machine: real-time factor, pictures a second, longest gap between handled
+// What the window manages on this machine: real-time factor, images a second, longest gap between handled
 // events; and the largest cube that keeps up with time. To be run on a display, or by
 // tests/support/on_display.sh.
 #include <fmt/format.h>
@@ -28,11 +28,11 @@ double seconds_between(Clock::time_point a, Clock::time_point b) {
 }
 
 struct Figures {
-  double real_time_factor = 0.0, pictures_per_second = 0.0;
+  double real_time_factor = 0.0, images_per_second = 0.0;
   double longest_gap = 0.0;  ///< between two looks at the events [s]
   double resolution = 0.0;   ///< share of the full one, at the end
   double stepping = 0.0;     ///< processor time of the solver's threads by second of simulated time [s]
-  double drawing = 0.0;      ///< that of the window's thread and the software rasteriser's by picture [s]
+  double drawing = 0.0;      ///< that of the window's thread and the software rasterizer's by image [s]
 };
 
 /// Processor time of this process so far [s].
@@ -89,7 +89,7 @@ Figures measure(const Case& c, double seconds) {
   double time_from = 0.0;
   ProcessorTime used_from;
   bool warm = false;
-  int pictures = 0;
+  int images = 0;
   double pull = 9.8;  // of gravity [m/s²]
   for (;;) {
     double wait = 0.0;
@@ -109,7 +109,7 @@ Figures measure(const Case& c, double seconds) {
       time_from = simulation.time();
       used_from = processor_time();
     } else if (warm) {
-      ++pictures;
+      ++images;
       if (seconds_between(measured_from, now) > seconds) break;
     }
     if (c.edits && seconds_between(edited, now) > 0.1) {
@@ -120,16 +120,16 @@ Figures measure(const Case& c, double seconds) {
     }
     if (const Status drawn = (*app)->frame((*window)->size(), std::min(dt, 0.25)); !drawn)
       fail(drawn.error().message());
-    (*window)->show_picture();
+    (*window)->show_image();
     if (simulation.divergence()) fail("diverged");
   }
   const double wall = seconds_between(measured_from, last);
   figures.real_time_factor = (simulation.time() - time_from) / wall;
-  figures.pictures_per_second = pictures / wall;
+  figures.images_per_second = images / wall;
   const ProcessorTime used = processor_time();
   figures.stepping = (used.stepping - used_from.stepping) / (simulation.time() - time_from);
-  figures.drawing = (used.drawing - used_from.drawing) / pictures;
-  const FramePolicy* const policy = (*app)->picture.policy();
+  figures.drawing = (used.drawing - used_from.drawing) / images;
+  const FramePolicy* const policy = (*app)->image.policy();
   figures.resolution = policy ? policy->resolution.share() : 1.0;
   (*window)->set_receiver(nullptr);
   return figures;
@@ -141,10 +141,10 @@ void report(std::string_view what, const Case& c, const Figures& f) {
     overrides += fmt::format("{}\"{}\"", overrides.empty() ? "" : ", ", o);
   fmt::print(
       "{{\"case\": \"{}\", \"scene\": \"{}\", \"overrides\": [{}], \"backend\": \"{}\", "
-      "\"real_time_factor\": {:.3f}, \"pictures_per_second\": {:.1f}, \"longest_gap_seconds\": {:.3f}, "
-      "\"resolution\": {}, \"stepping_seconds_a_simulated_second\": {:.3f}, \"drawing_seconds_a_picture\": "
+      "\"real_time_factor\": {:.3f}, \"images_per_second\": {:.1f}, \"longest_gap_seconds\": {:.3f}, "
+      "\"resolution\": {}, \"stepping_seconds_a_simulated_second\": {:.3f}, \"drawing_seconds_an_image\": "
       "{:.4f}}}\n",
-      what, c.scene, overrides, c.backend, f.real_time_factor, f.pictures_per_second, f.longest_gap,
+      what, c.scene, overrides, c.backend, f.real_time_factor, f.images_per_second, f.longest_gap,
       f.resolution, f.stepping, f.drawing);
   std::fflush(stdout);
 }
@@ -158,7 +158,7 @@ Figures median_of(const Case& c, double seconds, int repeats) {
   return figures;
 }
 
-/// Pauses a scene after a second: how long its fine picture takes, and the longest time that the window does
+/// Pauses a scene after a second: how long its fine image takes, and the longest time that the window does
 /// not answer meanwhile.
 void rest(const std::string& scene) {
   auto window = app::Window::create(1600, 1000, "Aspic figures");
@@ -177,24 +177,24 @@ void rest(const std::string& scene) {
     const auto now = Clock::now();
     const double dt = seconds_between(last, now);
     last = now;
-    // A new picture for each look at the events, as when the mouse moves.
+    // A new image for each look at the events, as when the mouse moves.
     if (seconds_between(start, now) > 1.0) (*app)->simulation.set_running(false);
-    if ((*app)->picture.at_rest) longest = std::max(longest, dt);
+    if ((*app)->image.at_rest) longest = std::max(longest, dt);
     if (const Status drawn = (*app)->frame((*window)->size(), std::min(dt, 0.25)); !drawn)
       fail(drawn.error().message());
-    (*window)->show_picture();
+    (*window)->show_image();
   }
   fmt::print(
-      "{{\"case\": \"rest\", \"scene\": \"{}\", \"fine_picture_seconds\": {:.3f}, \"longest_gap_seconds\": "
+      "{{\"case\": \"rest\", \"scene\": \"{}\", \"fine_image_seconds\": {:.3f}, \"longest_gap_seconds\": "
       "{:.3f}}}\n",
-      scene, (*app)->picture.rate.draw_seconds, longest);
+      scene, (*app)->image.rate.draw_seconds, longest);
   std::fflush(stdout);
   (*window)->set_receiver(nullptr);
 }
 
 /// A cube of so many particles an edge, in steps that its method bears.
 Case cube_of(int n, std::string_view backend, Integrator integrator) {
-  // One-pass is stable up to 0.98 ms in large cubes; implicit Euler is for steps of a picture's length.
+  // One-pass is stable up to 0.98 ms in large cubes; implicit Euler is for steps of an image's length.
   const double h = integrator == Integrator::implicit_euler            ? 1.0 / 60
                    : integrator == Integrator::implicit_euler_one_pass ? 0.0009
                                                                        : 0.001;

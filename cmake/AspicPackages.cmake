@@ -63,7 +63,7 @@ function(aspic_control_text result file)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-function(aspic_package_documents component name licences)
+function(aspic_package_documents component name licenses)
   set(folder "${PROJECT_BINARY_DIR}/debian/${name}")
   aspic_control_text(mit "${PROJECT_SOURCE_DIR}/LICENSE")
   file(STRINGS "${PROJECT_SOURCE_DIR}/LICENSE" holder REGEX "^Copyright")
@@ -71,7 +71,7 @@ function(aspic_package_documents component name licences)
   # Not file(CONFIGURE), which would read @ in other people's words.
   set(text "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\nUpstream-Name: aspic\n\n")
   string(APPEND text "Files: *\nCopyright: ${holder}\nLicense: Expat\n\nLicense: Expat\n${mit}\n")
-  foreach(pair IN LISTS licences)
+  foreach(pair IN LISTS licenses)
     string(REGEX MATCH "^([^=]+)=(.*)$" pair "${pair}")
     set(part "${CMAKE_MATCH_1}")
     aspic_control_text(words "${CMAKE_MATCH_2}")
@@ -90,7 +90,7 @@ function(aspic_package_documents component name licences)
 endfunction()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/LICENSE")
 
-# Pictures' letters and PNG or JPEG helpers are compiled in.
+# Images' letters and PNG or JPEG helpers are compiled in.
 set(within "DejaVu=/usr/share/doc/fonts-dejavu-core/copyright" "stb=/usr/share/doc/libstb-dev/copyright"
            "Eigen=/usr/share/doc/libeigen3-dev/copyright" "tomlplusplus=/usr/share/doc/libtomlplusplus-dev/copyright")
 
@@ -98,7 +98,7 @@ set(about "Aspic simulates jelly cubes, cloth, nets and balls as point masses an
 
 aspic_package(programs aspic SECTION science RECOMMENDS "${device}, libgl1, ffmpeg" LICENCES ${within}
               "CLI11=/usr/share/doc/libcli11-dev/copyright" "nlohmann-json=/usr/share/doc/nlohmann-json3-dev/copyright"
-  DESCRIPTION "soft bodies of point masses and springs\n${about}\n.\nThe program aspic runs scenes headless, films them, compares its backends and\nmeasures itself. aspic-view shows them in a window.")
+  DESCRIPTION "soft bodies of point masses and springs\n${about}\n.\nThe program aspic runs scenes headless, records videos, compares its backends and\nmeasures itself. aspic-view shows them in a window.")
 
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/debian/shlibs"
      CONTENT "libaspic ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} ${soname_package} (>= ${version})\n")
@@ -120,11 +120,11 @@ foreach(script IN ITEMS postinst prerm)
   configure_file("${PROJECT_SOURCE_DIR}/cmake/debian/python3-aspic.${script}" "${PROJECT_BINARY_DIR}/debian/${script}" COPYONLY)
   list(APPEND scripts "${PROJECT_BINARY_DIR}/debian/${script}")
 endforeach()
-file(GLOB nanobind_licence "${PROJECT_SOURCE_DIR}/build/python/lib/python3*/site-packages/nanobind-*.dist-info/licenses/LICENSE")
-aspic_package(python python3-aspic SECTION python LICENCES "nanobind=${nanobind_licence}" CONTROL ${scripts}
+file(GLOB nanobind_license "${PROJECT_SOURCE_DIR}/build/python/lib/python3*/site-packages/nanobind-*.dist-info/licenses/LICENSE")
+aspic_package(python python3-aspic SECTION python LICENCES "nanobind=${nanobind_license}" CONTROL ${scripts}
   DEPENDS "${soname_package} (= ${version}), python3 (>= ${python}), python3 (<< 3.${python_next}), python3-numpy"
   RECOMMENDS "${device}" SUGGESTS "aspic (= ${version}), ffmpeg, python3-xarray"
-  DESCRIPTION "soft bodies of point masses and springs - Python module\n${about}\n.\nThis package has the module aspic: scenes, simulations, batches, arrays of\nnumpy and pictures for notebooks.")
+  DESCRIPTION "soft bodies of point masses and springs - Python module\n${about}\n.\nThis package has the module aspic: scenes, simulations, batches, arrays of\nnumpy and images for notebooks.")
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/debian/METADATA"
      CONTENT "Metadata-Version: 2.1\nName: aspic-softbody\nVersion: ${PROJECT_VERSION}\nSummary: ${PROJECT_DESCRIPTION}\nRequires-Python: ==${python}.*\nRequires-Dist: numpy\n")
 install(FILES "${PROJECT_BINARY_DIR}/debian/METADATA" DESTINATION "lib/python3/dist-packages/aspic_softbody-${PROJECT_VERSION}.dist-info" COMPONENT python)

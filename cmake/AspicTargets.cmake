@@ -45,7 +45,7 @@ if(ASPIC_SANITIZE)
   endif()
 endif()
 
-# aspic_level(TARGET LEVEL): how far a Release build optimises a target that does not compute.
+# aspic_level(TARGET LEVEL): how far a Release build optimizes a target that does not compute.
 function(aspic_level target level)
   if(ASPIC_LEVELS)
     target_compile_options(${target} PRIVATE "$<$<AND:$<CONFIG:Release>,$<NOT:$<BOOL:$<TARGET_PROPERTY:ASPIC_COMPUTES>>>>:${level}>")
@@ -156,7 +156,7 @@ function(aspic_runs target)
   endif()
 endfunction()
 
-# aspic_computes(NAME [LEVEL]): a module that computes at length, optimised as far as the compiler can or in a Release build to this level,
+# aspic_computes(NAME [LEVEL]): a module that computes at length, optimized as far as the compiler can or in a Release build to this level,
 # without checks inside its loops.
 # Below -O2 clang inlines nothing of Eigen and Highway: minutes become hours under the sanitizers.
 function(aspic_computes name)
@@ -201,7 +201,7 @@ endfunction()
 # aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each suite of it a test of ctest's (cmake/AspicSuites.cmake):
 # a process for each case would make a context and compile the shaders each time. EACH_CASE: a process for each case all the
 # same, for cases that take long or want a process of their own. Patterns are those of --gtest_filter: SOFTWARE pattern gives the
-# label software to tests that mean software rasterisers alone, FULL part=pattern … moves
+# label software to tests that mean software rasterizers alone, FULL part=pattern … moves
 # tests to those parts of the full tier.
 function(aspic_test name)
   cmake_parse_arguments(arg "EACH_CASE" "SOFTWARE" "SOURCES;DEPENDS;FULL" ${ARGN})

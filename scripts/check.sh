@@ -8,11 +8,11 @@ steps=(format lints alone clang tidy odr asan tsan)
 declare -A meaning=(
   [format]="every C++ file is as clang-format leaves it (.clang-format)"
   [lints]="tests of the text: exact kernels, pointers between pages, arrows between rooms, sizes of files, the scene reference"
-  [alone]="what changed in the last day's commits compiles by itself, with clang: no precompiled header or neighbour hides a missing include"
+  [alone]="what changed in the last day's commits compiles by itself, with clang: no precompiled header or neighbor hides a missing include"
   [clang]="everything compiles with clang without a warning"
   [tidy]="clang-tidy finds nothing (.clang-tidy)"
   [odr]="no name has two definitions in a program (g++ -flto -Wodr)"
-  [asan]="the tests under address and undefined-behaviour sanitizers, on one driver"
+  [asan]="the tests under address and undefined-behavior sanitizers, on one driver"
   [tsan]="the tests with threads, child processes and signals under the thread sanitizer"
 )
 
@@ -68,10 +68,10 @@ changed_files() {
 
 # alone_header FILE: includes a header in an otherwise empty file, with the flags of a file of its room.
 alone_header() {
-  local neighbour command
-  neighbour=$(files "$(cut -d / -f 1-2 <<<"$1")/*.cpp" | head -n 1)
-  [ -n "$neighbour" ] || neighbour=examples/minimal.cpp # public headers
-  command=$(flock build/alone/lock ninja -C build/alone -t commands -s "$aspic_root/$neighbour^" | sed 's/ -MD .*//')
+  local neighbor command
+  neighbor=$(files "$(cut -d / -f 1-2 <<<"$1")/*.cpp" | head -n 1)
+  [ -n "$neighbor" ] || neighbor=examples/minimal.cpp # public headers
+  command=$(flock build/alone/lock ninja -C build/alone -t commands -s "$aspic_root/$neighbor^" | sed 's/ -MD .*//')
   (cd build/alone && echo "#include \"${1#*/}\"" | eval "$command -fsyntax-only -x c++ -") || { echo "^ $1" && return 1; }
 }
 

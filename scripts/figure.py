@@ -2,7 +2,7 @@
 """figure.py > assets/meshes/rabbit.obj: makes the built-in mesh, a sitting rabbit of smoothly joined ellipsoids.
 
 The surface is where a field of distances is 0. Surface nets (Gibson, 1998) find it on a grid, and each vertex is then moved onto it. Quads
-turn anticlockwise seen from outside. Lengths are metres; y is up and the rabbit looks along z.
+turn counterclockwise seen from outside. Lengths are meters; y is up and the rabbit looks along z.
 """
 
 import math
@@ -107,7 +107,7 @@ def surface_nets():
 def main():
     vertices, quads = surface_nets()
     ground = min(v[1] for v in vertices)
-    print("# A sitting rabbit, made by scripts/figure.py. Metres, y is up.")
+    print("# A sitting rabbit, made by scripts/figure.py. Meters, y is up.")
     for x, y, z in vertices:
         print(f"v {x:.3f} {y - ground:.3f} {z:.3f}".replace("-0.000", "0.000"))
     for quad in quads:

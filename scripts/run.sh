@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Release and runs aspic with the arguments given here. Without arguments: the window,
-# where there is a display and it could be built, else cube-plane simulated and filmed headless into out/. Builds all programs
+# where there is a display and it could be built, else cube-plane simulated and recorded headless into out/. Builds all programs
 # where the window can be opened, for info, and for commands that other programs have.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"

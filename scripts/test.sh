@@ -11,7 +11,7 @@ scripts/test.sh [--full] ARGUMENT …  with arguments of ctest. -R, -L and -I ch
                                      scripts/test.sh -R EqualBits; scripts/test.sh -L drivers
 
 core      each room's own tests; the gpu solvers on llvmpipe with a covering set of methods, terrains, contact
-          models, force paths and bodies; pictures; the command line, its manual pages and completion; the Python
+          models, force paths and bodies; images; the command line, its manual pages and completion; the Python
           package; the window's main tests; each scene of the independent implementation once
 full      core, and by label:
   pages        pages of every built-in scene in Chromium and Firefox; pages that simulate, with every scene and method, which are
@@ -22,7 +22,7 @@ full      core, and by label:
   drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads, on zink and for
                Khronos' reference compiler
   crowds       hundreds of balls in one place
-  framing      how much of the picture bodies fill, in every built-in scene, and what still backgrounds are kept of
+  framing      how much of the image bodies fill, in every built-in scene, and what still backgrounds are kept of
   verify       aspic verify --quick, and wrong solvers that its slow rows notice
   window       the rest of the window's tests
   report       the report's page in a browser, and on paper
@@ -35,7 +35,7 @@ full      core, and by label:
                and by Blender's library (1 GB)
   attack       damaged files and bytes, limits, faults and kills (scripts/attack.sh)
           and without a label:
-  sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers, without the three longest runs
+  sanitizers   core once more, built with clang's address and undefined-behavior sanitizers, without the three longest runs
                of bodies on the reference, whose code other tests run as well
   fuzzers      ten seconds each (scripts/fuzz.sh)
 

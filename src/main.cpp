@@ -1,4 +1,4 @@
-// aspic: the commands that simulate and film; aspic-studies has the others.
+// aspic: the commands that simulate and record; aspic-studies has the others.
 #include <string_view>
 #include <type_traits>
 

@@ -107,7 +107,7 @@ class Peer {
   Hello hello_;
 };
 
-/// How far the centre of free particles that start at rest falls in n steps [m]: explicit Euler moves by the
+/// How far the center of free particles that start at rest falls in n steps [m]: explicit Euler moves by the
 /// velocity at a step's start, symplectic Euler by that at its end.
 double fall(Integrator integrator, const PeerLattice& l, std::uint64_t steps) {
   const auto n = static_cast<double>(steps);

@@ -24,7 +24,7 @@ Result<std::vector<PeerProgram>> find_peers(const std::vector<std::string>& name
 /// The lattice that peers simulate too. Error (usage): the scene is something else than a cube of equal
 /// springs in free fall with explicit Euler; the sentence says what.
 struct PeerLattice {
-  double edge = 0.0, height = 0.0;  ///< of the cube and of its centre [m]
+  double edge = 0.0, height = 0.0;  ///< of the cube and of its center [m]
   double mass = 0.0, stiffness = 0.0, damping = 0.0, timestep = 0.0, gravity = 0.0;
   std::uint64_t most_steps = 0;  ///< before anything touches the ground
 };

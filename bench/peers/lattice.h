@@ -11,7 +11,7 @@ namespace peer {
 struct Lattice {
   int n = 10;              ///< particles per edge, ≥ 3
   double edge = 4.0;       ///< [m]
-  double height = 9.0;     ///< of the centre [m]
+  double height = 9.0;     ///< of the center [m]
   double mass = 1.0;       ///< of a particle [kg]
   double stiffness = 0.0;  ///< of every spring [N/m]
   double damping = 0.0;    ///< [N·s/m]

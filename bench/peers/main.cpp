@@ -69,7 +69,7 @@ Status run(std::vector<std::string> words) {
         help->text);
   }
   const auto& options = std::get<BenchOptions>(command);
-  if (options.pictures) return fail(ErrorCode::usage, "peers draw no pictures: leave --pictures out.");
+  if (options.images) return fail(ErrorCode::usage, "peers draw no images: leave --images out.");
   ASPIC_TRY(const auto programs, find_peers(names));
   return cli::execute_bench(options, [&](const auto&... of) { return invite(programs, of...); });
 }

@@ -14,7 +14,7 @@ os.dup2(2, 1)
 
 
 def offsets():
-    """The springs of a particle to neighbours of higher index: docs/physics.md, section 2."""
+    """The springs of a particle to neighbors of higher index: docs/physics.md, section 2."""
     result = []
     for i in range(3):
         for j in range(-2, 3):

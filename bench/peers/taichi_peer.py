@@ -1,4 +1,4 @@
-"""The lattice in Taichi, as its own examples of cloth do it: every particle looks at its neighbours in the grid, at
+"""The lattice in Taichi, as its own examples of cloth do it: every particle looks at its neighbors in the grid, at
 offsets known when the kernel is compiled. ASPIC_PEER_DEVICE is cpu, also if it is unset, or cuda."""
 import math
 import os
@@ -16,7 +16,7 @@ class Peer:
         n, h, m = lattice.size, lattice.timestep, lattice.mass
         k, c, g = lattice.stiffness, lattice.damping, lattice.gravity
         half = offsets()
-        neighbours = [(o, lattice.spacing * math.sqrt(sum(d * d for d in o)))
+        neighbors = [(o, lattice.spacing * math.sqrt(sum(d * d for d in o)))
                       for o in half + [tuple(-d for d in o) for o in half]]
         self.springs = len(lattice.springs()[0])
         x = ti.Vector.field(3, ti.f32, shape=(n, n, n))
@@ -27,7 +27,7 @@ class Peer:
         def step():
             for i in ti.grouped(x):
                 force = ti.Vector([0.0, -m * g, 0.0])
-                for o, length in ti.static(neighbours):
+                for o, length in ti.static(neighbors):
                     j = i + ti.Vector(o)
                     if 0 <= j[0] < n and 0 <= j[1] < n and 0 <= j[2] < n:
                         e = x[i] - x[j]

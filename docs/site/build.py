@@ -127,20 +127,20 @@ def has_module() -> bool:
 
 
 def make_runs(name: str, kinds: dict[str, str]) -> None:
-    """The pages of a scene's run and its picture, where the program is newer."""
+    """The pages of a scene's run and its image, where the program is newer."""
     since, smaller = Path(PROGRAM).stat().st_mtime, SMALLER.get(name, [])
     places = {option: PAGES / kind / f"{name}.html" for kind, option in kinds.items()}
     old = [f"{option}={page}" for option, page in places.items() if not page.exists() or page.stat().st_mtime < since]
     if old:
         run("run", name, *smaller, *(["--fps", "30"] if smaller else []), "--force", *old)
-    picture = ROOT / f"docs/images/{name}.jpg"
-    if not picture.exists():
+    image = ROOT / f"docs/images/{name}.jpg"
+    if not image.exists():
         frames = FOLDER / f"frames-{name}"
         if not frames.exists() or frames.stat().st_mtime < since:
             size = ["--fps", "1", "--size", "960x540", "--frames-format", "jpg"]
             run("run", name, *smaller, "--force", "--duration", "0.7", *size, "--frames", str(frames))
-        picture = sorted(frames.iterdir())[-1]
-    shutil.copy(picture, SOURCE / f"images/{name}.jpg")
+        image = sorted(frames.iterdir())[-1]
+    shutil.copy(image, SOURCE / f"images/{name}.jpg")
 
 
 def write_scenes(wanted: list[str]) -> None:

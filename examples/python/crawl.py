@@ -1,7 +1,7 @@
 """A soft cube learns to crawl: a small evolution strategy on 64 environments of aspic.gym.
 
     python crawl.py                         # minutes on two processors
-    python crawl.py --film crawl.mp4        # and a film of what it learned
+    python crawl.py --video crawl.mp4        # and a video of what it learned
 
 The policy is linear: the tension of each tendon is a weighted sum of what the cube observes, within 0 … 1. In every
 generation the weights are moved by the same amount in random directions and in their opposites; each of these policies
@@ -44,7 +44,7 @@ def main() -> None:
     words.add_argument("--pairs", type=int, default=32, help="of opposite directions in a generation")
     words.add_argument("--seconds", type=float, default=4.0, help="of an episode, a multiple of 0.02")
     words.add_argument("--seed", type=int, default=1)
-    words.add_argument("--film", metavar="FILE", help="films the last policy: .mp4, or a folder of pictures")
+    words.add_argument("--video", metavar="FILE", help="video of the last policy: .mp4, or a folder of images")
     arguments = words.parse_args()
 
     pairs = arguments.pairs
@@ -66,10 +66,10 @@ def main() -> None:
             print(f"generation {generation + 1}: {reached.mean():.3f} m, the best {reached.max():.3f} m", flush=True)
 
     print(f"weights {hashlib.sha256(weights.tobytes()).hexdigest()[:16]}")
-    show(weights, arguments.seconds, arguments.film)
+    show(weights, arguments.seconds, arguments.video)
 
 
-def show(weights: np.ndarray, seconds: float, film: str | None) -> None:
+def show(weights: np.ndarray, seconds: float, video: str | None) -> None:
     """An episode of the policy, which a simulation repeats by its inputs."""
     envs = aspic.gym.Crawl(1, episode=seconds)
     observations, _ = envs.reset(seed=0)
@@ -85,14 +85,14 @@ def show(weights: np.ndarray, seconds: float, film: str | None) -> None:
     print(f"crawled {infos['distance'][0]:.3f} m in {seconds:g} s, hash {sim.hash}")
     if sim.hash != envs.batch.hash[0]:
         raise SystemExit("the simulation went another way")
-    if film:
+    if video:
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "crawl.toml")
             sim.save_inputs(path)
             steps = sim.steps
             sim.load(start)
             sim.replay(path)
-            sim.film(film, steps=steps)
+            sim.video(video, steps=steps)
 
 
 if __name__ == "__main__":

@@ -13,8 +13,8 @@ import numpy as np
 
 
 def reach(run: aspic.Trajectory) -> float:
-    """How far the centre of mass moved along the ground [m]."""
-    way = run["centre-of-mass"][-1] - run["centre-of-mass"][0]
+    """How far the center of mass moved along the ground [m]."""
+    way = run["center-of-mass"][-1] - run["center-of-mass"][0]
     return float(np.hypot(way[0], way[2]))
 
 

@@ -1,7 +1,7 @@
 """Robots of voxels evolve: bodies and the phases of their muscles, by how far they crawl.
 
     python evolve.py                        # 200 robots × 100 generations: minutes on two processors
-    python evolve.py --film best.mp4        # and a film of the winner
+    python evolve.py --video best.mp4        # and a video of the winner
 
 A robot is a block of cells, each of which is empty, fat, or muscle with a phase. Every generation mutates the best
 robots so far, and steps all children as one batch. Random numbers are bits of a generator, and distances have the same
@@ -87,8 +87,8 @@ def mutated(robot: Robot, chance: Chance) -> Robot:
 
 def crawled(scenes: list[aspic.Scene], seconds: float) -> tuple[np.ndarray, list[str]]:
     """How far what is in each moves along x [m], −1 if it diverges, and the hash of its end."""
-    out = aspic.Batch(scenes).run(seconds, record=["centre-of-mass"])
-    moved = out["centre-of-mass"][:, -1, 0] - out["centre-of-mass"][:, 0, 0]
+    out = aspic.Batch(scenes).run(seconds, record=["center-of-mass"])
+    moved = out["center-of-mass"][:, -1, 0] - out["center-of-mass"][:, 0, 0]
     return np.where(out.diverged, -1.0, moved), out.hash
 
 
@@ -114,7 +114,7 @@ def main() -> None:
     words.add_argument("--seconds", type=float, default=4.0, help="simulated, of each robot")
     words.add_argument("--shape", type=int, nargs=3, default=(5, 3, 3), help="cells along x, y and z")
     words.add_argument("--seed", type=int, default=1)
-    words.add_argument("--film", metavar="FILE", help="films the winner: .mp4, or a folder of pictures")
+    words.add_argument("--video", metavar="FILE", help="video of the winner: .mp4, or a folder of images")
     words.add_argument("--save", metavar="FILE", help="writes the winner's scene")
     arguments = words.parse_args()
 
@@ -145,8 +145,8 @@ def main() -> None:
     print(f"with half the time step {half[0]:.3f} m")
     if arguments.save:
         scene.save(arguments.save, overwrite=True)
-    if arguments.film:
-        aspic.Simulation(scene, "cpu").film(arguments.film, arguments.seconds)
+    if arguments.video:
+        aspic.Simulation(scene, "cpu").video(arguments.video, arguments.seconds)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ for _ in range(arguments.cubes):
 batch = aspic.Batch(scenes)
 print(batch.description)
 out = batch.run(arguments.seconds, every=0.02)
-height = out["centre-of-mass"][:, :, 1]
+height = out["center-of-mass"][:, :, 1]
 lowest = height.argmin(axis=1)
 bounce = np.array([cube[low:].max() for cube, low in zip(height, lowest)])
 bounce[out.diverged > 0] = np.nan  # too stiff for their time step

@@ -8,10 +8,10 @@ import aspic
 
 
 def bounce(scene: aspic.Scene, stiffness: float) -> tuple[float, float, str]:
-    """Lowest and then highest centre of mass [m] after the drop, and the hash of the state at the end."""
+    """Lowest and then highest center of mass [m] after the drop, and the hash of the state at the end."""
     names = ("structural", "shear", "bending")
     sim = aspic.Simulation(scene.copy({f"cube[0].{name}.stiffness": stiffness for name in names}), "cpu", threads=1)
-    height = sim.run(every=0.01, record=["centre-of-mass"])["centre-of-mass"][:, 1]
+    height = sim.run(every=0.01, record=["center-of-mass"])["center-of-mass"][:, 1]
     lowest = int(height.argmin())
     return float(height[lowest]), float(height[lowest:].max()), sim.hash
 

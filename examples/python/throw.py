@@ -10,7 +10,7 @@ import aspic
 words = argparse.ArgumentParser(description=__doc__)
 words.add_argument("--backend", default="cpu")
 words.add_argument("--replay", default="reference", metavar="BACKEND")
-words.add_argument("--film", metavar="FILE", help="films the replay")
+words.add_argument("--video", metavar="FILE", help="video of the replay")
 arguments = words.parse_args()
 
 scene = aspic.load("cube-plane", {"cube[0].particles-per-edge": 5, "cube[0].position": [0, 2.5, 0]})
@@ -23,7 +23,7 @@ for i in range(100):  # for a second, the hands go round half a circle
     sim.pulls = [aspic.Pull(int(c), [x + d for x, d in zip(start, by)], 3000, 50) for c, start in zip(corners, held)]
     sim.step(10)
 sim.pulls = []
-flight = sim.run(1.0, every=0.05, record=["centre-of-mass"])["centre-of-mass"]
+flight = sim.run(1.0, every=0.05, record=["center-of-mass"])["center-of-mass"]
 print(f"thrown from {flight[0, 1]:.2f} m to {flight[:, 1].max():.2f} m, {flight[-1, 0] - flight[0, 0]:.2f} m far")
 
 with tempfile.TemporaryDirectory() as folder:
@@ -31,8 +31,8 @@ with tempfile.TemporaryDirectory() as folder:
     sim.save_inputs(path)
     again = aspic.Simulation(scene, arguments.replay)
     again.replay(path)
-    if arguments.film:
-        again.film(arguments.film, steps=sim.steps)
+    if arguments.video:
+        again.video(arguments.video, steps=sim.steps)
     else:
         again.step(sim.steps)
 print(f"{sim.backend} {sim.hash}, replayed on {again.backend} {again.hash}")

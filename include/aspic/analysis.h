@@ -29,7 +29,7 @@ struct Measures {
   std::optional<double> drag_power;  ///< [W] that drag dissipates, Σ γ m v²; nothing without drag
   Vec3 momentum;                     ///< Σ m v [N·s]
   double max_speed = 0.0;            ///< [m/s]
-  double min_height = 0.0;           ///< lowest y of all particles and balls' centres [m]; 0 without any
+  double min_height = 0.0;           ///< lowest y of all particles and balls' centers [m]; 0 without any
 
   ASPIC_API double total() const;  ///< kinetic, elastic and gravitational [J]
 };
@@ -83,8 +83,8 @@ ASPIC_API double largest_actuation_energy(const Model& model);
 
 /// What particles and springs do in a state, in double precision whatever its own. By particle:
 struct StateQuantities {
-  std::vector<double> speed;        ///< |v| [m/s]
-  std::vector<double> mean_strain;  ///< mean |L/r − 1| of its springs, as pictures show it; 0 without any
+  std::vector<double> speed;           ///< |v| [m/s]
+  std::vector<double> mean_strain;     ///< mean |L/r − 1| of its springs, as images show it; 0 without any
   std::vector<double> mean_actuation;  ///< mean r/r₀ − 1 of its springs; empty without actuators
   std::vector<Vec3> force;             ///< net, with contact [N]: zero at rest, and of pinned particles
   std::vector<Vec3> contact_force;     ///< of terrain and bodies [N]; a bounce is an impulse, in no state
@@ -154,7 +154,7 @@ enum class StabilityEffort {
 /// the work, and what it had not reached is bounded instead.
 using StabilityWatch = std::function<bool(double)>;
 
-/// The smallest limit of all bodies, springs linearised at rest: exact, or a bound that the true limit is not
+/// The smallest limit of all bodies, springs linearized at rest: exact, or a bound that the true limit is not
 /// below (src/analysis/stability.h). 0, not exact: k/m is beyond double precision.
 ASPIC_API StabilityLimit stability_limit(const Model& model, Integrator integrator,
                                          StabilityEffort effort = StabilityEffort::thorough,

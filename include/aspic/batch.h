@@ -25,20 +25,20 @@ struct BatchOptions {
 
 /// What Batch::run() records, besides the time.
 struct BatchQuantities {
-  bool centre_of_mass = true;            ///< of all particles, pinned ones too, without balls
+  bool center_of_mass = true;            ///< of all particles, pinned ones too, without balls
   bool momentum = false;                 ///< Measures::momentum, balls included
   bool energies = false;                 ///< those of Measures, balls included
   std::optional<std::size_t> body = {};  ///< positions of this body of particle_ranges(), which all must have
   bool actuator_work = false;            ///< ActuatorWork over the recorded states
 };
 
-/// Arrays of a recorded run, row-major: the last index is that of neighbours in memory. Those that were not
+/// Arrays of a recorded run, row-major: the last index is that of neighbors in memory. Those that were not
 /// asked for are empty. In the rows after a divergence the last good state is repeated, its time too.
 struct BatchRecord {
   std::size_t instances = 0, times = 0;  ///< how many
   std::size_t particles = 0;             ///< of the body whose positions are recorded
   std::vector<double> time;              ///< (instances, times): step · h of the instance [s]
-  std::vector<double> centre_of_mass;    ///< (instances, times, 3) [m]
+  std::vector<double> center_of_mass;    ///< (instances, times, 3) [m]
   std::vector<double> momentum;          ///< (instances, times, 3) [N·s]
   std::vector<double> energy;            ///< (instances, times, 3): kinetic, elastic, gravitational [J]
   std::vector<double> actuator_work;     ///< (instances, times) [J]; 0 without actuators

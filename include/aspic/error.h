@@ -25,13 +25,13 @@ enum class ErrorCode {
 enum class RemedyKind {
   words,           ///< `values[0]` is an imperative clause for everybody: "make the scene smaller"
   use_backend,     ///< compute on the backend `values[0]`, a word of parse_backend()
-  draw_nothing,    ///< compute on the backend `values[0]` without pictures, which need a device
+  draw_nothing,    ///< compute on the backend `values[0]` without images, which need a device
   overwrite,       ///< allow that what is there already is replaced
-  lower_fps,       ///< at most `values[0]` pictures per second
+  lower_fps,       ///< at most `values[0]` images per second
   raise_speed,     ///< at least `values[0]` simulated seconds per second shown
   shorten,         ///< simulate less time
-  picture_size,    ///< pictures of `values[0]` × `values[1]` pixels
-  write_pictures,  ///< numbered pictures in place of a film
+  image_size,      ///< images of `values[0]` × `values[1]` pixels
+  write_images,    ///< numbered images in place of a video
   resume,          ///< continue the run of the checkpoint `values[0]`, a path
   replay,          ///< give the inputs of `values[0]`, a path, to a run
   give_checkpoint  ///< name a file that is a checkpoint

@@ -59,16 +59,16 @@ struct Sample {
 };
 
 /// Width and height of a frame or image [pixels].
-struct PictureSize {
+struct ImageSize {
   int width = 1280;  ///< ≥ 1
   int height = 720;  ///< ≥ 1
-  friend bool operator==(const PictureSize&, const PictureSize&) = default;
+  friend bool operator==(const ImageSize&, const ImageSize&) = default;
 };
 
-struct FilmFormat;  // of the library's table
+struct VideoFormat;  // of the library's table
 /// The format of images or videos with that name or ending, in any case: "png", "jpg", "mp4", …; null if
 /// there is none.
-ASPIC_API const FilmFormat* find_film_format(std::string_view word);
+ASPIC_API const VideoFormat* find_video_format(std::string_view word);
 
 /// Takes the frames of a run in order. One that is destroyed before finish() leaves nothing that looks
 /// complete. A Recorder calls write() and finish() on its own encoding thread, one at a time.

@@ -16,7 +16,7 @@ namespace aspic {
 /// force is that of a spring (docs/physics.md, section 1) whose other end rests at the anchor,
 ///   e = x − anchor,  f = −[k·|e| + c(v·e)/|e|]·e/|e|,
 /// nothing where e = 0, and is added to the particle's sum after its springs and before contact. On a ball it
-/// acts at the centre, is added to gravity, and is that of the step's start throughout the step, since balls
+/// acts at the center, is added to gravity, and is that of the step's start throughout the step, since balls
 /// fly under a constant force (docs/balls.md).
 struct Pull {
   std::uint32_t particle = 0;  ///< global index, of a ball where `ball`; a pinned particle feels it and stays
@@ -73,7 +73,7 @@ class ASPIC_API InputLog {
 
   /// Before the first entry there are no inputs.
   bool empty() const { return entries_.empty(); }
-  /// Ascending; neighbours differ.
+  /// Ascending; neighbors differ.
   std::span<const Entry> entries() const { return entries_; }
   /// Inputs from this step on; those of this step and later ones are forgotten.
   void set(std::uint64_t step, Inputs inputs);

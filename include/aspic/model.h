@@ -66,7 +66,7 @@ struct SpringFacts {
 /// Every spring, sorted by (a, b).
 ASPIC_API std::vector<SpringFacts> spring_facts(const Model& model);
 
-/// Four particles anticlockwise, seen from outside or from the side that an open surface turns to.
+/// Four particles counterclockwise, seen from outside or from the side that an open surface turns to.
 using Quad = std::array<std::uint32_t, 4>;
 /// The surface of the body at an index of particle_ranges(); nothing for nets.
 ASPIC_API std::vector<Quad> surface_quads(const Model& model, std::size_t body);

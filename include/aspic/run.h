@@ -77,14 +77,14 @@ struct StateOutput {
 };
 
 /// Images, videos and pages of a run.
-struct PictureOutput {
+struct ImageOutput {
   std::string video, frames;  ///< file and directory; empty: none
   std::string page;           ///< HTML file for browsers; empty: none
   std::string page_live;      ///< one that simulates the run in the browser; empty: none
-  const FilmFormat* frames_format = find_film_format("png");  ///< of `frames`
+  const VideoFormat* frames_format = find_video_format("png");  ///< of `frames`
   std::optional<double> fps;  ///< frames per second shown, > 0; absent: those of the format
   double speed = 1.0;         ///< simulated seconds per second shown, > 0
-  PictureSize size;           ///< of frames
+  ImageSize size;             ///< of frames
   bool text = true;           ///< parameters and time are written on them
 
   /// Whether anything is drawn: a page is not.
@@ -109,10 +109,10 @@ class ASPIC_API RunFiles {
   RunFiles& operator=(RunFiles&&) noexcept;
   ~RunFiles();
 
-  /// Opens every file that is named; the page of `pictures` where `page` tells of its run. Errors: usage for
+  /// Opens every file that is named; the page of `images` where `page` tells of its run. Errors: usage for
   /// one name given twice, a page of more than it holds, or a live page of what a browser cannot repeat:
   /// double precision, fast arithmetic, inputs; io; interrupted.
-  static Result<RunFiles> open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
+  static Result<RunFiles> open(const std::vector<StateOutput>& states, const ImageOutput& images,
                                const RunFacts& facts, Overwrite overwrite, const PageFacts& page = {});
 
   /// The first step after `step` at which a file wants the state; the largest number if none does.
@@ -188,7 +188,7 @@ class ASPIC_API Recorder {
   /// Draws where a gpu backend's state lies, else in a separate headless context; the sinks have the size of
   /// `output`. Everything given by reference must outlive the recorder. Errors: no_device,
   /// scene_rejected (no device memory), io (a shader file).
-  static Result<std::unique_ptr<Recorder>> create(const PictureOutput& output, const Scene& scene,
+  static Result<std::unique_ptr<Recorder>> create(const ImageOutput& output, const Scene& scene,
                                                   const Backend& backend,
                                                   std::vector<std::unique_ptr<FrameSink>> sinks,
                                                   std::uint64_t first_step, std::uint64_t last_step);
@@ -236,7 +236,7 @@ class ASPIC_API StillPainter {
   /// turned at the start: height·width·3 bytes as FrameSink::write() has them. `text`: parameters, time and
   /// scales are written on it. Errors: scene_rejected, the image is larger than the device renders or its
   /// memory; no_device, as Solver::advance().
-  Result<std::vector<std::byte>> draw(const ViewSettings& view, const PictureSize& size, bool text = true);
+  Result<std::vector<std::byte>> draw(const ViewSettings& view, const ImageSize& size, bool text = true);
 
  private:
   struct Parts;

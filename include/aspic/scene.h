@@ -1,5 +1,5 @@
 #pragma once
-// A scene: the physics and the picture of one TOML file, as plain data; from text and back.
+// A scene: the physics and the image of one TOML file, as plain data; from text and back.
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace aspic {
 
-/// How a camera brings the world into the picture.
+/// How a camera brings the world into the image.
 enum class Projection { perspective, orthographic };
 
 /// Every one with its name in scene files.
@@ -26,7 +26,7 @@ inline constexpr Named<Projection> projections[] = {{Projection::perspective, "p
 /// A camera. Position and target never coincide in a scene that was accepted.
 struct CameraSettings {
   Vec3 position = {10.0, 6.0, 14.0};  ///< of the eye [m]
-  Vec3 target = {0.0, 2.0, 0.0};      ///< point in the middle of the picture [m]
+  Vec3 target = {0.0, 2.0, 0.0};      ///< point in the middle of the image [m]
   double fov = 45.0;                  ///< vertical field of view [degrees], 1…179
   /// Orthographic: parallel to the axis, with the height that the field of view has at the target.
   Projection projection = Projection::perspective;
@@ -45,33 +45,33 @@ struct DrawSettings {
   friend bool operator==(const DrawSettings&, const DrawSettings&) = default;
 };
 
-/// What the colours of bodies mean.
-enum class ViewColour { material, type, strain, force, speed, signed_strain, energy, actuation };
+/// What the colors of bodies mean.
+enum class ViewColor { material, type, strain, force, speed, signed_strain, energy, actuation };
 
 /// Every one, in the order in which they are listed for users.
-inline constexpr Named<ViewColour> view_colours[] = {
-    {ViewColour::material, "material"}, {ViewColour::type, "type"},
-    {ViewColour::strain, "strain"},     {ViewColour::signed_strain, "signed-strain"},
-    {ViewColour::force, "force"},       {ViewColour::energy, "energy"},
-    {ViewColour::speed, "speed"},       {ViewColour::actuation, "actuation"}};
+inline constexpr Named<ViewColor> view_colors[] = {
+    {ViewColor::material, "material"}, {ViewColor::type, "type"},
+    {ViewColor::strain, "strain"},     {ViewColor::signed_strain, "signed-strain"},
+    {ViewColor::force, "force"},       {ViewColor::energy, "energy"},
+    {ViewColor::speed, "speed"},       {ViewColor::actuation, "actuation"}};
 
-/// Whether a colour shows a number, on a scale.
-inline bool has_scale(ViewColour colour) {
-  return colour >= ViewColour::strain;
+/// Whether a color shows a number, on a scale.
+inline bool has_scale(ViewColor color) {
+  return color >= ViewColor::strain;
 }
 
 /// Whether such a number may be negative.
-inline bool has_sign(ViewColour colour) {
-  return colour == ViewColour::signed_strain || colour == ViewColour::actuation;
+inline bool has_sign(ViewColor color) {
+  return color == ViewColor::signed_strain || color == ViewColor::actuation;
 }
 
-/// Colours of a scale.
-enum class ScaleMap { automatic, violet_yellow, heat, grey, blue_red };
+/// Colors of a scale.
+enum class ScaleMap { automatic, violet_yellow, heat, gray, blue_red };
 /// Every one with its name in scene files.
 inline constexpr Named<ScaleMap> scale_maps[] = {{ScaleMap::automatic, "automatic"},
                                                  {ScaleMap::violet_yellow, "violet-yellow"},
                                                  {ScaleMap::heat, "heat"},
-                                                 {ScaleMap::grey, "grey"},
+                                                 {ScaleMap::gray, "gray"},
                                                  {ScaleMap::blue_red, "blue-red"}};
 
 /// Which values the ends of a scale represent.
@@ -80,7 +80,7 @@ enum class ScaleRange { fixed, automatic, symmetric };
 inline constexpr Named<ScaleRange> scale_ranges[] = {
     {ScaleRange::fixed, "fixed"}, {ScaleRange::automatic, "automatic"}, {ScaleRange::symmetric, "symmetric"}};
 
-/// The scale of a colour that shows a number.
+/// The scale of a color that shows a number.
 struct ScaleSettings {
   ScaleMap map = ScaleMap::automatic;    ///< automatic: one that suits the quantity
   ScaleRange range = ScaleRange::fixed;  ///< fixed: `from` and `to`, or what suits the model
@@ -121,16 +121,16 @@ struct ArrowSettings {
 
 /// The `view` table of a scene.
 struct ViewSettings {
-  CameraSettings camera;                     ///< the eye
-  bool aimed = false;                        ///< a file gave no camera: with_overrides() aims it at bodies
-  DrawSettings draw;                         ///< which parts of the bodies
-  ViewColour colour = ViewColour::material;  ///< of the bodies
-  CutSettings cut;                           ///< through the bodies
-  bool terrain = true;                       ///< it is drawn; bodies touch it in either case
-  bool axes = false;                         ///< the world's axes are drawn in a corner
-  ArrowSettings arrows;                      ///< none by default
-  std::optional<double> arrow_scale = {};  ///< an arrow's force by its length [N/m]; absent: fits the picture
-  ScaleSettings scale;                     ///< used by colours with has_scale()
+  CameraSettings camera;                   ///< the eye
+  bool aimed = false;                      ///< a file gave no camera: with_overrides() aims it at bodies
+  DrawSettings draw;                       ///< which parts of the bodies
+  ViewColor color = ViewColor::material;   ///< of the bodies
+  CutSettings cut;                         ///< through the bodies
+  bool terrain = true;                     ///< it is drawn; bodies touch it in either case
+  bool axes = false;                       ///< the world's axes are drawn in a corner
+  ArrowSettings arrows;                    ///< none by default
+  std::optional<double> arrow_scale = {};  ///< an arrow's force by its length [N/m]; absent: fits the image
+  ScaleSettings scale;                     ///< used by colors with has_scale()
   std::optional<double> ground;            ///< height of a ground that is drawn only [m]; absent: none
   std::optional<std::string> follow;       ///< body or ball that the camera moves along with (scene/follow.h)
 
@@ -138,17 +138,17 @@ struct ViewSettings {
 };
 
 /// Names in scene files.
-ASPIC_API std::string_view name_of(ViewColour colour);
+ASPIC_API std::string_view name_of(ViewColor color);
 ASPIC_API std::string_view name_of(CutInside inside);
 ASPIC_API std::string_view name_of(Projection projection);
 ASPIC_API std::string_view name_of(ScaleMap map);
 ASPIC_API std::string_view name_of(ScaleRange range);
 
-/// Physics and picture of one scene. Default-constructed it has no terrain and no bodies, as an empty file
+/// Physics and image of one scene. Default-constructed it has no terrain and no bodies, as an empty file
 /// would.
 struct Scene {
   std::string name;  ///< for titles and reports; the file's name without extension if the file gives none
-  std::optional<std::string> author;  ///< as films and reports name them; absent: nobody is named
+  std::optional<std::string> author;  ///< as videos and reports name them; absent: nobody is named
   ModelSettings model;                ///< what is simulated
   ViewSettings view;                  ///< how it is drawn
 };
@@ -181,7 +181,7 @@ ASPIC_API Result<Scene> parse_scene(std::string_view text, const std::string& fi
 ASPIC_API Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides,
                                        const LoadOptions& options = {});
 
-/// The same for keys of the table `view`, without its name: `colour=strain`.
+/// The same for keys of the table `view`, without its name: `color=strain`.
 ASPIC_API Result<Scene> with_view(Scene scene, std::span<const std::string> arguments,
                                   const LoadOptions& options = {});
 

@@ -152,13 +152,13 @@ struct PinnedSettings {
 /// Of the library: how it makes a model of a kind of body. Each kind declares its own.
 struct BodyRow;
 
-/// A cube of particles, n³ in a lattice; or a box, whose neighbours are equally far apart in all directions.
+/// A cube of particles, n³ in a lattice; or a box, whose neighbors are equally far apart in all directions.
 struct CubeSettings {
   int particles_per_edge = 10;                       ///< n, ≥ 2; without `particles`
   std::optional<std::array<int, 3>> particles = {};  ///< of a box: along x, y and z, each ≥ 2
   double edge_length = 4.0;                          ///< [m], > 0; of a box the longest edge
-  Vec3 position = {0.0, 9.0, 0.0};                   ///< of the centre [m]
-  RotationSettings rotation;                         ///< about the centre
+  Vec3 position = {0.0, 9.0, 0.0};                   ///< of the center [m]
+  RotationSettings rotation;                         ///< about the center
   Vec3 velocity = {0.0, 0.0, 0.0};                   ///< [m/s]
   double particle_mass = 1.0;                        ///< m [kg], > 0
   SpringSettings structural, shear, bending;         ///< by type; without `material`
@@ -190,8 +190,8 @@ using CellPalette = std::map<std::string, std::string, std::less<>>;
 struct VoxelsSettings {
   std::string name = {};                               ///< unique where it is not empty
   double size = 0.5;                                   ///< edge of a cell [m], > 0
-  Vec3 position = {0.0, 6.0, 0.0};                     ///< of the centre of all cells, the empty ones too [m]
-  RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};  ///< about that centre
+  Vec3 position = {0.0, 6.0, 0.0};                     ///< of the center of all cells, the empty ones too [m]
+  RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};  ///< about that center
   Vec3 velocity = {0.0, 0.0, 0.0};                     ///< [m/s]
   CellLayers layers = {{"1.1", "1.1"}, {"111", "111"}};  ///< as many rows, and as many characters, in each
   CellPalette palette = {};             ///< names of ModelSettings::materials; empty: all are of `material`
@@ -214,9 +214,9 @@ struct GoalNetSettings {
   std::array<int, 3> particles = {10, 20,
                                   35};  ///< nw, nh, nl along width (x), height (y), length (z), each ≥ 2
   Vec3 size = {2.0, 3.0, 8.0};          ///< width, height, length [m], each > 0
-  Vec3 position = {0.0, 0.6, 0.0};      ///< of the box's centre [m]
+  Vec3 position = {0.0, 0.6, 0.0};      ///< of the box's center [m]
   double particle_mass = 0.2;           ///< m [kg], > 0
-  SpringSettings structural = {1500.0, 50.0};  ///< between neighbours
+  SpringSettings structural = {1500.0, 50.0};  ///< between neighbors
   OptionalSpringSettings shear, bending;       ///< none by default
   std::optional<MaterialSettings> material;    ///< of its cords, instead of mass and springs
   double cord_diameter = 0.01;                 ///< d [m], > 0; with `material`
@@ -228,8 +228,8 @@ struct GoalNetSettings {
 struct ClothSettings {
   std::array<int, 2> particles = {24, 16};  ///< w, h along its width (x) and height (y), each ≥ 2
   std::array<double, 2> size = {3.0, 2.0};  ///< width, height [m], each > 0
-  Vec3 position = {0.0, 3.0, 0.0};          ///< of the centre [m]
-  RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};  ///< about the centre
+  Vec3 position = {0.0, 3.0, 0.0};          ///< of the center [m]
+  RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};  ///< about the center
   Vec3 velocity = {0.0, 0.0, 0.0};                     ///< [m/s]
   double particle_mass = 0.02;                         ///< m [kg], > 0
   SpringSettings structural = {400.0, 0.8}, shear = {200.0, 0.4}, bending = {20.0, 0.04};  ///< by type
@@ -247,7 +247,7 @@ struct ClothSettings {
 struct BallSettings {
   double radius = 0.3;                      ///< R [m], > 0
   double mass = 1.0;                        ///< m [kg], > 0
-  Vec3 position = {7.0, 2.6, 2.0};          ///< of the centre [m]
+  Vec3 position = {7.0, 2.6, 2.0};          ///< of the center [m]
   Vec3 velocity = {-49.0, -14.0, -7.0};     ///< [m/s]
   Vec3 angular_velocity = {0.0, 0.0, 0.0};  ///< ω [rad/s]
   friend BodyRow row_of(const BallSettings&);
@@ -316,7 +316,7 @@ struct SelectSettings {
 };
 
 /// The phase φ of a signal [cycles]: offset − x/wavelength + that of the cell, where x is the cell's middle
-/// along an axis, from the body's centre. So a wave runs towards the axis' positive end where the wavelength
+/// along an axis, from the body's center. So a wave runs towards the axis' positive end where the wavelength
 /// is positive.
 struct PhaseSettings {
   double offset = 0.0;              ///< [cycles]

@@ -103,7 +103,7 @@ class ASPIC_API Solver {
   /// The same of numbers that lie elsewhere, float or double with strides; every field must be there.
   Status load(const ConstStateView& view, std::uint64_t step);
   /// What acts from outside from the next step on, until it is called again. A new solver has none; load()
-  /// leaves them as they are. Cheap enough for every picture, ordered after the steps that advance() was
+  /// leaves them as they are. Cheap enough for every image, ordered after the steps that advance() was
   /// asked for, and without a say in the state before the next step begins: state() is what it was. Errors
   /// (usage), which name the list and the index in it: a particle or ball that the model does not have, or
   /// that is listed twice; a released one that the scene does not pin; a number that is not finite or too

@@ -27,7 +27,7 @@ struct State {
   std::vector<Vec3> position;               ///< x [m], by global particle index
   std::vector<Vec3> velocity;               ///< v [m/s]
   // By ball index. A ball that is not launched yet (Ball::launch_step) holds the start it will have.
-  std::vector<Vec3> ball_position;          ///< of the centre [m]
+  std::vector<Vec3> ball_position;          ///< of the center [m]
   std::vector<Vec3> ball_velocity;          ///< [m/s]
   std::vector<Vec3> ball_angular_velocity;  ///< ω [rad/s]
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, SupportsIndex, Union
 from . import _aspic
 from ._body import body_index
 from ._errors import DivergedError, Unshared, UsageError, diverged
+from ._exports import plain
 from ._inputs import Steerable
 from ._numbers import positive, whole
 from ._scene import Scene, changes, load
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from ._picture import Picture
+    from ._image import Image
     from ._simulation import Simulation
 
 __all__ = ["Batch", "Instance"]
@@ -31,7 +32,7 @@ MOST = 10_000_000
 """Instances of one scene."""
 
 # What may be recorded of all particles of an instance.
-_OF_ALL = ("centre-of-mass", "momentum", "energy", "actuator-work")
+_OF_ALL = ("center-of-mass", "momentum", "energy", "actuator-work")
 
 
 class Instance(Steerable):
@@ -76,7 +77,7 @@ class Instance(Steerable):
 
     def render(
         self, width: int = 960, height: int = 540, view: Mapping[str, Any] | None = None, *, text: bool = True
-    ) -> Picture:
+    ) -> Image:
         """Return an image of the state, as ``Simulation.render()``. The batch keeps its OpenGL context."""
         return self._drawer.of(self).render(width, height, view, text=text)
 
@@ -191,13 +192,13 @@ class Batch(Unshared):
         return self._core.advance(whole(steps, "a number of steps"))
 
     def run(
-        self, duration: float, *, every: float | None = None, record: str | Sequence[str] = ("centre-of-mass",)
+        self, duration: float, *, every: float | None = None, record: str | Sequence[str] = ("center-of-mass",)
     ) -> BatchTrajectory:
         """Steps every instance, and records on the way.
 
         ``duration``: from where each is [s], ≥ 0; ``every``: the interval of samples [s], the first at once, each at
         the step nearest to its time, the last at the end; None: the start and the end alone. ``record``:
-        ``"centre-of-mass"`` (n, t, 3) [m], ``"momentum"`` (n, t, 3) [N·s], ``"energy"`` of (n, t) [J],
+        ``"center-of-mass"`` (n, t, 3) [m], ``"momentum"`` (n, t, 3) [N·s], ``"energy"`` of (n, t) [J],
         ``"actuator-work"`` (n, t) [J], added up over the samples, and of one body ``"cube[0].positions"`` (n, t, p, 3)
         [m], or ``"positions"`` where every instance has a single body. Raises
         UsageError for others, and for a body that has not the same number and as many particles in all instances;
@@ -210,11 +211,11 @@ class Batch(Unshared):
             positive(every, "every, the interval of samples [s],")
         body, kinds = self._wanted(names)
         interval = every if every is not None else duration if duration > 0 else 1.0
-        centre, momentum, energy, actuators = (kind in kinds for kind in _OF_ALL)
-        time, centres, momenta, energies, work, positions, diverged, hashes = self._core.run(
-            duration, interval, centre, momentum, energy, actuators, body
+        center, momentum, energy, actuators = (kind in kinds for kind in _OF_ALL)
+        time, centers, momenta, energies, work, positions, diverged, hashes = self._core.run(
+            duration, interval, center, momentum, energy, actuators, body
         )
-        of: dict[str, Any] = {"centre-of-mass": centres, "momentum": momenta, "actuator-work": work, "positions": positions}
+        of: dict[str, Any] = {"center-of-mass": centers, "momentum": momenta, "actuator-work": work, "positions": positions}
         if energies is not None:
             of["energy"] = Energy(*(energies[..., part].copy() for part in range(3)))
         series = {name: of[kind] for name, kind in zip(names, kinds)}
@@ -282,9 +283,11 @@ class Batch(Unshared):
         return self.read("velocities")
 
     @property
-    def centre_of_mass(self) -> NDArray[np.float64]:
+    def center_of_mass(self) -> NDArray[np.float64]:
         """Center of mass of all particles of each instance, without balls, (n, 3) [m]."""
-        return self._now("centre-of-mass")[:, 0]  # type: ignore[no-any-return]
+        return self._now("center-of-mass")[:, 0]  # type: ignore[no-any-return]
+
+    centre_of_mass = center_of_mass  # until 0.4
 
     @property
     def momentum(self) -> NDArray[np.float64]:
@@ -328,7 +331,7 @@ class Batch(Unshared):
         kinds = []
         for name in names:
             body, _, what = name.rpartition(".")
-            kind = what.replace("_", "-")
+            kind = plain(what)
             if kind == "positions":
                 found.add(self._body(body))
             elif body or kind not in _OF_ALL:

@@ -34,7 +34,7 @@ class Skin(NamedTuple):
     vertices: NDArray[np.float64]
     """(v, 3) [m], where the cells carry them."""
     triangles: NDArray[np.uint32]
-    """(t, 3) indices into ``vertices``, anticlockwise from outside."""
+    """(t, 3) indices into ``vertices``, counterclockwise from outside."""
 
 
 class Body:
@@ -85,9 +85,11 @@ class Body:
         return self._simulation.masses[self._slice]
 
     @property
-    def centre_of_mass(self) -> NDArray[np.float64]:
+    def center_of_mass(self) -> NDArray[np.float64]:
         """Center of mass, (3,) [m]."""
         return weighted(self.masses, self.positions) / float(self.masses.sum())
+
+    centre_of_mass = center_of_mass  # until 0.4
 
     @property
     def momentum(self) -> NDArray[np.float64]:
@@ -111,7 +113,7 @@ class Body:
 
     @property
     def surface(self) -> NDArray[np.uint32]:
-        """Surface quads, (m, 4) indices into ``positions``, anticlockwise from outside; none for nets."""
+        """Surface quads, (m, 4) indices into ``positions``, counterclockwise from outside; none for nets."""
         faces = self._simulation._core.surface(self._index)
         return faces - faces.dtype.type(self._first)
 

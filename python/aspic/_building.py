@@ -96,7 +96,7 @@ class Buildable:
         ``cells``: whole numbers or bool, (nx, ny, nz) along x, y (upwards) and z, 0 where a cell is empty, at most 512
         along each axis; or layers of rows of characters as in files. ``size``: edge of a cell [m], > 0; ``palette``:
         the material's name of each number or character, ``{1: "muscle", 2: "fat"}``; ``material``: without a palette,
-        that of all cells, a name or ``{"density": 900.0}``; ``position``: centre of the array's box [m], (3,);
+        that of all cells, a name or ``{"density": 900.0}``; ``position``: center of the array's box [m], (3,);
         ``pieces``: of cells that share no face, ``"refuse"``, ``"largest"`` or ``"all"``; ``pinned``: faces, corners
         and indices of particles that never move. Raises UsageError for cells that are no array, SceneError for what a
         scene refuses: a number that the palette does not name, several pieces, a name that is taken.
@@ -135,7 +135,7 @@ class Buildable:
         """Adds the inside of a mesh as a body of cells, drawn as the mesh; returns its path, ``"voxels[bunny]"``.
 
         ``path``: .obj, .stl or .ply, or ``"rabbit"``, which is built in; ``cells``: along the longest edge of its box,
-        1 … 256; ``height``: of the box, to which the mesh is scaled [m], None: the file's numbers are metres; ``up``:
+        1 … 256; ``height``: of the box, to which the mesh is scaled [m], None: the file's numbers are meters; ``up``:
         the file's axis that points upwards, ``"y"`` or ``"z"``; ``material``, ``position``, ``pieces``: as of
         ``add_voxels()``. ``notes`` says what was repaired. Raises SceneError for a file that cannot be read, with its
         line or byte, and for a mesh of which no inside can be told, with its figures (docs/meshes.md).
@@ -166,7 +166,7 @@ class Buildable:
 
         r(t) = r₀(1 + a·w(t)) for the springs of chosen cells (docs/actuation.md). ``body``: one or several names, None:
         every body; ``material``: names of the cells' materials, ``box``: two corners (3,) around the middles of cells,
-        from the body's centre [m], ``voxels``: a mask (nx, ny, nz), ``springs``: ``"structural"``, ``"shear"``,
+        from the body's center [m], ``voxels``: a mask (nx, ny, nz), ``springs``: ``"structural"``, ``"shear"``,
         ``"bending"``: what it acts on, all that are given together; ``axis``: ``"all"``, ``"x"``, ``"y"`` or ``"z"`` of
         the body; ``amplitude``: a, or ``volume_change``: v at w = 1; ``signal``: w, ``"sine"``, ``"square"``,
         ``"triangle"``, ``"table"`` or ``"input"``, which ``Simulation.inputs`` gives; ``frequency`` [Hz]; ``table``:

@@ -55,13 +55,13 @@ class Crawl(Locomotion):
     """A soft body crawls along +x by tendons, which draw two of its particles together.
 
     Action, (m,) of 0 … 1: the tension of each tendon as a part of ``force``, constant for ``every`` s. Both ends feel
-    it, in opposite directions, so tendons alone do not move its centre of mass: it has to walk by friction.
+    it, in opposite directions, so tendons alone do not move its center of mass: it has to walk by friction.
 
     Observation, (2m + 6,) float32, within ±10: a clock, as two triangle waves a quarter of ``cycle`` apart (2,);
     lengths of the tendons over those at the start, less 1 (m,); their rates over those lengths [1/s] (m,); velocity of
-    the centre of mass [m/s] (3,); how much higher it is than at the start [m] (1,).
+    the center of mass [m/s] (3,); how much higher it is than at the start [m] (1,).
 
-    Reward: how far the centre of mass moved along x [m]. infos["distance"]: since the beginning of the episode [m].
+    Reward: how far the center of mass moved along x [m]. infos["distance"]: since the beginning of the episode [m].
     An episode begins at the scene's start with a random velocity, the same of all particles.
     """
 
@@ -130,7 +130,7 @@ class Crawl(Locomotion):
         difference = v[:, self.ends[:, 1]] - v[:, self.ends[:, 0]]
         rates = _dot(across, difference) / np.maximum(length, 1e-9)
         return seen(
-            self._clock(), length / self._rest - 1, rates / self._rest, self._centre(v), self._higher(x)
+            self._clock(), length / self._rest - 1, rates / self._rest, self._center(v), self._higher(x)
         )
 
     def _spans(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -197,15 +197,17 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
     def render(self) -> tuple[Any, ...] | None:
         """Return an image of each environment, (height, width, 3) of uint8; None without a render mode.
 
-        Needs an OpenGL device, hardware or software (DeviceError). ``picture(i)`` renders a single one.
+        Needs an OpenGL device, hardware or software (DeviceError). ``image(i)`` renders a single one.
         """
         if self.render_mode is None:
             return None
-        return tuple(self.picture(i) for i in range(self.num_envs))
+        return tuple(self.image(i) for i in range(self.num_envs))
 
-    def picture(self, index: int) -> Any:
+    def image(self, index: int) -> Any:
         """Return an image of one environment, (height, width, 3) of uint8. Raises IndexError, DeviceError."""
         return np.asarray(self.batch[index].render(*self._size))
+
+    picture = image  # until 0.4
 
     @property  # type: ignore[misc, unused-ignore]
     def np_random(self) -> tuple[np.random.Generator, ...]:  # type: ignore[override, unused-ignore]
@@ -310,7 +312,7 @@ class SingleEnv(Unshared, gymnasium.Env):  # type: ignore[misc, type-arg, unused
 
     def render(self) -> Any:
         """Return an image, (height, width, 3) of uint8; None without a render mode."""
-        return None if self.render_mode is None else self.envs.picture(0)
+        return None if self.render_mode is None else self.envs.image(0)
 
     def close(self) -> None:
         """Ends its use."""

@@ -41,7 +41,7 @@ VECTOR, SCALAR = ("particle", "axis"), ("particle",)
 KINDS: dict[str, Kind] = {
     "positions": Kind(VECTOR, "m", "positions of the particles"),
     "velocities": Kind(VECTOR, "m/s", "velocities of the particles"),
-    "ball-positions": Kind(("ball", "axis"), "m", "centres of the balls"),
+    "ball-positions": Kind(("ball", "axis"), "m", "centers of the balls"),
     "ball-velocities": Kind(("ball", "axis"), "m/s", "velocities of the balls"),
     "ball-angular-velocities": Kind(("ball", "axis"), "rad/s", "angular velocities of the balls"),
     "speed": Kind(SCALAR, "m/s", "speed of the particles"),
@@ -56,7 +56,7 @@ KINDS: dict[str, Kind] = {
     "energy.gravitational": Kind((), "J", "gravitational energy"),
     "actuator-work": Kind((), "J", "work of actuators since the first sample"),
     "momentum": Kind(("axis",), "N s", "momentum"),
-    "centre-of-mass": Kind(("axis",), "m", "centre of mass"),
+    "center-of-mass": Kind(("axis",), "m", "center of mass"),
     "max-speed": Kind((), "m/s", "largest speed"),
     "min-height": Kind((), "m", "lowest y"),
     "hash": Kind((), "", "hash of the state"),
@@ -98,13 +98,17 @@ MOTION = (
 )
 
 
+def plain(name: str) -> str:
+    """Return a quantity's name with hyphens; the spelling ``centre`` is accepted until 0.4."""
+    return name.replace("_", "-").replace("centre", "center")
+
+
 def kind_of(name: str) -> Kind:
     """Metadata of an array by its name, ``"cube[0].positions"``: then its particles are a dimension of that body."""
-    plain = name.replace("_", "-")
-    if plain in KINDS:
-        return KINDS[plain]
+    if plain(name) in KINDS:
+        return KINDS[plain(name)]
     body, _, what = name.rpartition(".")
-    kind = KINDS[what.replace("_", "-")]
+    kind = KINDS[plain(what)]
     return kind._replace(dimensions=tuple(f"{body}.{d}" if d == "particle" else d for d in kind.dimensions))
 
 
@@ -259,7 +263,7 @@ def scene_of(trajectory: Trajectory) -> Scene:
 
 def recorded(series: Mapping[str, Any], names: Iterable[str]) -> list[Any]:
     """Series that have to be there. Raises UsageError, which says what to record."""
-    of = {name.replace("_", "-"): name for name in series}
+    of = {plain(name): name for name in series}
     missing = [name for name in names if name not in of]
     if missing:
         raise UsageError(f'{", ".join(missing)} were not recorded: run with record=["motion"], which is all of it')

@@ -32,7 +32,7 @@ class Pull(NamedTuple):
     damping: float = 0.0
     """c [N·s/m], ≥ 0."""
     ball: bool = False
-    """Pulls the centre of a ball instead of a particle."""
+    """Pulls the center of a ball instead of a particle."""
 
 
 def _row(pull: Pull) -> tuple[int, tuple[float, float, float], float, float, bool]:

@@ -29,7 +29,7 @@ def scenes_of(
 
 
 class Locomotion(BatchEnv):
-    """Environments whose reward is how far the centre of mass moves along +x [m].
+    """Environments whose reward is how far the center of mass moves along +x [m].
 
     infos["distance"]: since the beginning of the episode [m]. An episode begins at the scene's start with a random
     velocity, the same of all particles.
@@ -41,10 +41,10 @@ class Locomotion(BatchEnv):
     """The largest component of the velocity at the beginning [m/s]."""
 
     def _keep_start(self) -> NDArray[np.float64]:
-        """Remembers where all centres of mass are; positions, (n, particles, 3)."""
+        """Remembers where all centers of mass are; positions, (n, particles, 3)."""
         x = self.batch.positions.astype(np.float64)
         self._masses = np.array([instance.masses for instance in self.batch])[:, :, None]
-        self._start = self._centre(x)
+        self._start = self._center(x)
         self._place = self._start[:, 0].copy()
         return x
 
@@ -55,7 +55,7 @@ class Locomotion(BatchEnv):
 
     def judge(self) -> tuple[ArrayLike, ArrayLike]:
         """How far each went along x since the last step [m]; no episode ends by it."""
-        place = self._centre(self.batch.positions.astype(np.float64))[:, 0]
+        place = self._center(self.batch.positions.astype(np.float64))[:, 0]
         moved = place - self._place
         self._place = place
         return moved, np.zeros(self.num_envs, np.bool_)
@@ -70,10 +70,10 @@ class Locomotion(BatchEnv):
         return np.stack([4 * np.abs((time + shift) % 1.0 - 0.5) - 1 for shift in (0.0, 0.25)], axis=1)
 
     def _higher(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """How much higher the centres of mass are than at the start [m], (n, 1)."""
-        return (self._centre(x) - self._start)[:, 1:2]
+        """How much higher the centers of mass are than at the start [m], (n, 1)."""
+        return (self._center(x) - self._start)[:, 1:2]
 
-    def _centre(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _center(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
         """Mean by mass, (n, 3), added in the order of the particles, so that it has the same bits everywhere."""
         sums = np.cumsum(self._masses * vectors, axis=1)[:, -1]
         return sums / np.cumsum(self._masses, axis=1)[:, -1]  # type: ignore[no-any-return]

@@ -32,7 +32,7 @@ class Measures(NamedTuple):
     max_speed: float
     """[m/s]."""
     min_height: float
-    """Lowest y of all particles and balls' centres [m]; 0 without any."""
+    """Lowest y of all particles and balls' centers [m]; 0 without any."""
 
 
 class Springs(NamedTuple):

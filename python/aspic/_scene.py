@@ -244,7 +244,7 @@ class Scene(Buildable):
             file.write(self.toml)
 
     def stable_timestep(self, thorough: bool = False) -> float | None:
-        """The largest stable time step of the scene's integrator, springs linearised at rest [s].
+        """The largest stable time step of the scene's integrator, springs linearized at rest [s].
 
         Infinite where nothing limits it (implicit Euler); None where some mode grows at any step (explicit Euler
         without damping). ``thorough``: seconds of work for a sharper bound; the true limit is this or larger.

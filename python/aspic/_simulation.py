@@ -31,7 +31,7 @@ from ._trajectory import Diagnostic, Recorder, Trajectory, json_of
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from ._picture import Picture
+    from ._image import Image
 
 __all__ = ["Advance", "Simulation", "SolveStatistics", "resume"]
 
@@ -170,7 +170,7 @@ class Simulation(Replayable):
     def stop(self) -> None:
         """End a call that steps in another thread, after the step it is in. No effect otherwise.
 
-        ``advance()`` returns; ``step()``, ``run()``, ``export()``, ``film()`` and ``page()`` raise InterruptedRun.
+        ``advance()`` returns; ``step()``, ``run()``, ``export()``, ``video()`` and ``page()`` raise InterruptedRun.
         """
         self._core.stop()
 
@@ -198,9 +198,9 @@ class Simulation(Replayable):
 
         ``duration`` [s] or ``steps``: how far from here; neither: to the end of the scene's duration. ``every``: the
         interval of samples [s], the first at once, each at the step nearest to its time; None: the start and the end
-        alone. ``record``: ``"energy"``, ``"momentum"``, ``"centre-of-mass"``, ``"positions"``, ``"velocities"``,
+        alone. ``record``: ``"energy"``, ``"momentum"``, ``"center-of-mass"``, ``"positions"``, ``"velocities"``,
         ``"max-speed"``, ``"min-height"``, ``"hash"``, ``"actuator-work"`` [J], added up over the samples, and of a body
-        ``"cube[0].positions"``, ``"….velocities"``, ``"….centre-of-mass"``, ``"….momentum"``. Also ``"speed"``, ``"force"``, ``"contact-force"``, ``"contact"``,
+        ``"cube[0].positions"``, ``"….velocities"``, ``"….center-of-mass"``, ``"….momentum"``. Also ``"speed"``, ``"force"``, ``"contact-force"``, ``"contact"``,
         ``"mean-strain"`` of particles, ``"strain"`` and ``"tension"`` of springs, ``"ball-positions"``,
         ``"ball-velocities"``, ``"ball-angular-velocities"``; ``"motion"`` is all that exports hold. ``controls``: the
         ``inputs`` by step, (steps, inputs), in their order; the run has one step per row. Raises UsageError for
@@ -348,25 +348,25 @@ class Simulation(Replayable):
             raise UsageError(f"load() takes a State, as save() returns, not {type(state).__name__}")
         self._core.load(state._core, state._log)
 
-    # Pictures.
+    # Images.
 
     def render(
         self, width: int = 960, height: int = 540, view: Mapping[str, Any] | None = None, *, text: bool = True
-    ) -> Picture:
+    ) -> Image:
         """Return an image of the state, (height, width, 3) of uint8, which notebooks show.
 
-        ``view``: keys of the scene's table ``view``, for this image alone: ``{"colour": "strain"}``,
+        ``view``: keys of the scene's table ``view``, for this image alone: ``{"color": "strain"}``,
         ``{"camera.position": [8, 4, 8]}``; ``text``: parameters, time and scales are written on it. The first one makes
         an OpenGL context; a software rasterizer is enough. Raises SceneError for a wrong key or a size that cannot be
         drawn, DeviceError without a device.
         """
-        from ._picture import Picture
+        from ._image import Image
 
         _check_size(width, height)
-        pixels: Any = self._core.picture(assignments(view), width, height, text)
-        return pixels.view(Picture)  # type: ignore[no-any-return]
+        pixels: Any = self._core.image(assignments(view), width, height, text)
+        return pixels.view(Image)  # type: ignore[no-any-return]
 
-    def film(
+    def video(
         self,
         path: Path,
         duration: float | None = None,
@@ -389,10 +389,12 @@ class Simulation(Replayable):
         count = self._steps_of(duration, steps)
         pace(fps, speed)
         _check_size(width, height)
-        found = self._core.film(name_of(path), count, fps, speed, width, height, text, overwrite)
+        found = self._core.video(name_of(path), count, fps, speed, width, height, text, overwrite)
         self._warn()
         if found:
             raise diverged(found)
+
+    film = video  # until 0.4
 
     def page(
         self,
@@ -407,7 +409,7 @@ class Simulation(Replayable):
     ) -> None:
         """Steps, and writes the run as one HTML file that browsers show without a network (docs/page.md).
 
-        ``duration``, ``steps``: as ``run()``; ``fps``, ``speed``: as ``film()``; ``live``: the page holds no frames,
+        ``duration``, ``steps``: as ``run()``; ``fps``, ``speed``: as ``video()``; ``live``: the page holds no frames,
         but simulates the run in the browser and compares the bits. Where ``aspic run`` of a built-in scene would write
         it too, the page has that command to copy. Ctrl-C and a divergence leave a complete page so
         far. Raises UsageError, also for a live page of a run in double precision or with inputs; FileError, also where

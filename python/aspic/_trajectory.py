@@ -63,8 +63,9 @@ class Series(Mapping[str, Any]):
         self._series = series
 
     def __getitem__(self, name: str) -> Any:
-        if name in self._series:
-            return self._series[name]
+        for known in (name, name.replace("centre", "center")):
+            if known in self._series:
+                return self._series[known]
         raise UsageError(f"{name!r} was not recorded; this trajectory has {', '.join(self._series) or 'nothing'}")
 
     def get(self, name: str, default: Any = None) -> Any:
@@ -183,9 +184,9 @@ def _load(path: str | os.PathLike[str], *more: str) -> tuple[list[Any], dict[str
 
 
 class Trajectory(Series):
-    """A recording of ``Simulation.run()``: ``trajectory["energy"].total``, ``trajectory["cube[0].centre-of-mass"]``.
+    """A recording of ``Simulation.run()``: ``trajectory["energy"].total``, ``trajectory["cube[0].center-of-mass"]``.
 
-    Arrays have the samples first: positions (t, n, 3), a centre of mass (t, 3), a speed (t,).
+    Arrays have the samples first: positions (t, n, 3), a center of mass (t, 3), a speed (t,).
     """
 
     def __init__(
@@ -278,9 +279,9 @@ class Trajectory(Series):
 
 
 class BatchTrajectory(Series):
-    """A recording of ``Batch.run()``: ``out["centre-of-mass"]``, ``out["energy"].total``, ``out["cube[0].positions"]``.
+    """A recording of ``Batch.run()``: ``out["center-of-mass"]``, ``out["energy"].total``, ``out["cube[0].positions"]``.
 
-    Arrays have the instance first, then the sample: a centre of mass (n, t, 3), positions (n, t, p, 3). The rows after
+    Arrays have the instance first, then the sample: a center of mass (n, t, 3), positions (n, t, p, 3). The rows after
     a divergence repeat the last good state.
     """
 
@@ -336,7 +337,7 @@ _ARRAYS = ("positions", "velocities")
 _OF_BALLS = ("ball-positions", "ball-velocities", "ball-angular-velocities")
 # In the order in which the library tells them.
 _QUANTITIES = ("speed", "mean-strain", "force", "contact-force", "contact", "strain", "tension")
-_OF_BODIES = ("centre-of-mass", "momentum")
+_OF_BODIES = ("center-of-mass", "momentum")
 
 
 class _Sample:
@@ -399,7 +400,7 @@ class Recorder:
 
     def _taker(self, name: str) -> Callable[[_Sample], Any]:
         body, _, what = name.rpartition(".")
-        what = what.replace("_", "-")
+        what = _exports.plain(what)
         if not body:
             if what == "energy":
                 return lambda s: s.energy
@@ -426,7 +427,7 @@ class Recorder:
             if what == "momentum":
                 return lambda s: weighted(masses, s.velocities[particles])
             return lambda s: weighted(masses, s.positions[particles]) / float(masses.sum())
-        known = ["motion", "energy", *_OF_MOTION, *_ARRAYS, "centre-of-mass", "hash", "actuator-work", *_QUANTITIES, *_OF_BALLS]
+        known = ["motion", "energy", *_OF_MOTION, *_ARRAYS, "center-of-mass", "hash", "actuator-work", *_QUANTITIES, *_OF_BALLS]
         raise UsageError(
             f"{name!r} cannot be recorded; {', '.join(known)} can, and of a body "
             f"{', '.join(f'{self._example()}.{part}' for part in _ARRAYS + _OF_BODIES)}"

@@ -41,11 +41,11 @@ class Walk(Locomotion):
     ``rate`` at most, so that they jump at no step.
 
     Observation, (m + 13,) float32, within ±10: a clock, as two triangle waves a quarter of ``cycle`` apart (2,); the
-    signals (m,); velocity of the centre of mass [m/s] (3,); how much higher it is than at the start [m] (1,); where the
+    signals (m,); velocity of the center of mass [m/s] (3,); how much higher it is than at the start [m] (1,); where the
     ends of the body's long and upright axes point, over their lengths at the start (6,); the part of its lowest particles
     that is near the ground (1,).
 
-    Reward: how far the centre of mass moved along x [m]. infos["distance"]: since the beginning of the episode [m].
+    Reward: how far the center of mass moved along x [m]. infos["distance"]: since the beginning of the episode [m].
     An episode begins at the scene's start with a random velocity, the same of all particles.
     """
 
@@ -106,7 +106,7 @@ class Walk(Locomotion):
         length = np.sqrt((self._axes**2).sum(axis=2))[:, :, None]
         axes = (self._axes_of(x) / length).reshape(len(x), 6)
         near = (x[:, self._lowest, 1] < x[:, :, 1].min(axis=1)[:, None] + 0.01).mean(axis=1)[:, None]
-        return seen(self._clock(), self._signals, self._centre(v), self._higher(x), axes, near)
+        return seen(self._clock(), self._signals, self._center(v), self._higher(x), axes, near)
 
     def _axes_of(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """From rear to front and from below to above, by particles at the ends, (n, 2, 3)."""

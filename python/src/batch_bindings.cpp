@@ -19,7 +19,7 @@ namespace aspic::python {
 namespace {
 
 using Numbers = std::optional<Array<double>>;
-/// Times (n, t), centres of mass, momenta, energies (n, t, 3), work (n, t), positions (n, t, p, 3),
+/// Times (n, t), centers of mass, momenta, energies (n, t, 3), work (n, t), positions (n, t, p, 3),
 /// divergences (n,).
 using RecordArrays = std::tuple<Array<double>, Numbers, Numbers, Numbers, Numbers,
                                 std::optional<Array<float>>, Array<std::uint64_t>, std::vector<std::string>>;
@@ -31,9 +31,9 @@ std::string text_of(std::uint64_t hash) {
   return text;
 }
 
-RecordArrays run(Batch& batch, double duration, double interval, bool centre_of_mass, bool momentum,
+RecordArrays run(Batch& batch, double duration, double interval, bool center_of_mass, bool momentum,
                  bool energies, bool work, std::optional<std::size_t> body) {
-  BatchRecord record = batch.run(duration, interval, {centre_of_mass, momentum, energies, body, work});
+  BatchRecord record = batch.run(duration, interval, {center_of_mass, momentum, energies, body, work});
   const std::size_t n = record.instances, t = record.times;
   const auto vectors = [&](bool wanted, std::vector<double>& numbers) -> Numbers {
     if (!wanted) return std::nullopt;
@@ -46,7 +46,7 @@ RecordArrays run(Batch& batch, double duration, double interval, bool centre_of_
   std::vector<std::string> hashes;
   for (const std::uint64_t hash : record.hash) hashes.push_back(text_of(hash));
   return RecordArrays(as_array(std::move(record.time), {n, t}),
-                      vectors(centre_of_mass, record.centre_of_mass), vectors(momentum, record.momentum),
+                      vectors(center_of_mass, record.center_of_mass), vectors(momentum, record.momentum),
                       vectors(energies, record.energy), std::move(works), std::move(positions),
                       as_array(std::move(record.diverged), {n}), std::move(hashes));
 }
@@ -133,7 +133,7 @@ void bind_batch(nb::module_& module) {
           nb::keep_alive<0, 1>(), "One, by a number that there is.")
       .def("advance", &Batch::advance, nb::arg("steps"), "Steps; how many are diverged.")
       .def("stop", &Batch::stop, "Ends what goes on in another thread.")
-      .def("run", &run, nb::arg("duration"), nb::arg("interval"), nb::arg("centre_of_mass"),
+      .def("run", &run, nb::arg("duration"), nb::arg("interval"), nb::arg("center_of_mass"),
            nb::arg("momentum"), nb::arg("energies"), nb::arg("work"), nb::arg("body").none(),
            "Steps and records.")
       .def("reset", &reset, nb::arg("mask").none(), "To the start.")

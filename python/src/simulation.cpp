@@ -249,8 +249,8 @@ Result<std::optional<Divergence>> Simulation::advance_visiting(std::uint64_t las
   }
 }
 
-Result<std::optional<Divergence>> Simulation::film_alone(const FilmWish& wish, bool& stopped) {
-  PictureOutput output;
+Result<std::optional<Divergence>> Simulation::video_alone(const VideoWish& wish, bool& stopped) {
+  ImageOutput output;
   const std::filesystem::path path(wish.path);
   (path.has_extension() ? output.video : output.frames) = wish.path;
   output.size = wish.size;
@@ -270,7 +270,7 @@ Result<std::optional<Divergence>> Simulation::film_alone(const FilmWish& wish, b
 }
 
 Result<std::optional<Divergence>> Simulation::page_alone(const PageWish& wish, bool& stopped) {
-  PictureOutput output;
+  ImageOutput output;
   (wish.live ? output.page_live : output.page) = wish.path;
   output.fps = wish.fps;
   output.speed = wish.speed;
@@ -303,15 +303,15 @@ std::optional<Divergence> Simulation::page(const PageWish& wish) {
   return divergence;
 }
 
-std::optional<Divergence> Simulation::film(const FilmWish& wish) {
+std::optional<Divergence> Simulation::video(const VideoWish& wish) {
   bool stopped = stop_ = false;
-  const auto divergence = alone([&] { return take(film_alone(wish, stopped)); });
+  const auto divergence = alone([&] { return take(video_alone(wish, stopped)); });
   check_stopped(stopped);
   return divergence;
 }
 
-std::vector<std::byte> Simulation::picture(const std::vector<std::string>& view, const PictureSize& size,
-                                           bool text) {
+std::vector<std::byte> Simulation::image(const std::vector<std::string>& view, const ImageSize& size,
+                                         bool text) {
   return alone([&] {
     if (!painter_) painter_ = take(StillPainter::create(scene_, backend_));
     const Scene shown = take(with_view(scene_, view));

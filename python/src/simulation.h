@@ -24,13 +24,13 @@ namespace aspic::python {
 /// A backend's words with options. Error (usage).
 BackendChoice choice_of(const std::string& words, std::optional<bool> doubles, unsigned threads);
 
-/// How a film is made.
-struct FilmWish {
-  std::string path;  ///< of a video where it has an ending, else a directory of pictures
+/// How a video is made.
+struct VideoWish {
+  std::string path;  ///< of a video where it has an ending, else a directory of images
   std::uint64_t steps = 0;
   std::optional<double> fps;
   double speed = 1.0;
-  PictureSize size;
+  ImageSize size;
   bool text = true, overwrite = false;
 };
 
@@ -102,7 +102,7 @@ class Simulation {
   void stop() { stop_ = true; }
   /// Figures of implicit Euler; nothing with other integrators.
   std::optional<SolveStatistics> solves();
-  std::optional<Divergence> film(const FilmWish& wish);
+  std::optional<Divergence> video(const VideoWish& wish);
   std::optional<Divergence> page(const PageWish& wish);
   /// The first step whose states differ, of so many; both advance until there.
   std::optional<std::uint64_t> compare(Simulation& other, std::uint64_t steps);
@@ -114,7 +114,7 @@ class Simulation {
   /// Those since the last call.
   std::vector<Warning> new_warnings();
 
-  std::vector<std::byte> picture(const std::vector<std::string>& view, const PictureSize& size, bool text);
+  std::vector<std::byte> image(const std::vector<std::string>& view, const ImageSize& size, bool text);
   /// Another model of the same topology.
   void update(const std::vector<std::string>& overrides);
 
@@ -154,7 +154,7 @@ class Simulation {
   template <class Next, class Visit>
   Result<std::optional<Divergence>> advance_visiting(std::uint64_t last, const Next& next_step,
                                                      const Visit& visit, bool& stopped);
-  Result<std::optional<Divergence>> film_alone(const FilmWish& wish, bool& stopped);
+  Result<std::optional<Divergence>> video_alone(const VideoWish& wish, bool& stopped);
   Result<std::optional<Divergence>> page_alone(const PageWish& wish, bool& stopped);
 
   Turns turns_;

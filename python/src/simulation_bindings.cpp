@@ -39,18 +39,18 @@ nb::object view(const nb::object& self, std::size_t field) {
       *vectors);
 }
 
-Array<std::uint8_t> picture(Simulation& simulation, const std::vector<std::string>& view, int width,
-                            int height, bool text) {
-  std::vector<std::byte> rgb = simulation.picture(view, {width, height}, text);
+Array<std::uint8_t> image(Simulation& simulation, const std::vector<std::string>& view, int width, int height,
+                          bool text) {
+  std::vector<std::byte> rgb = simulation.image(view, {width, height}, text);
   auto* const held = new std::vector<std::byte>(std::move(rgb));
   const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<std::vector<std::byte>*>(p); });
   return Array<std::uint8_t>(reinterpret_cast<std::uint8_t*>(held->data()),
                              {static_cast<std::size_t>(height), static_cast<std::size_t>(width), 3}, owner);
 }
 
-Diverged film(Simulation& simulation, const std::string& path, std::uint64_t steps, std::optional<double> fps,
-              double speed, int width, int height, bool text, bool overwrite) {
-  return told(simulation.film({path, steps, fps, speed, {width, height}, text, overwrite}));
+Diverged video(Simulation& simulation, const std::string& path, std::uint64_t steps,
+               std::optional<double> fps, double speed, int width, int height, bool text, bool overwrite) {
+  return told(simulation.video({path, steps, fps, speed, {width, height}, text, overwrite}));
 }
 
 Diverged page(Simulation& simulation, const std::string& path, std::uint64_t steps, std::optional<double> fps,
@@ -124,10 +124,10 @@ void bind_simulation(nb::module_& module) {
       .def("compare", &Simulation::compare, nb::arg("other"), nb::arg("steps"),
            "The first step that differs.")
       .def("view", &view, nb::arg("field"), "A field in the solver's memory; None on a device.")
-      .def("picture", &picture, nb::arg("view"), nb::arg("width"), nb::arg("height"), nb::arg("text"),
+      .def("image", &image, nb::arg("view"), nb::arg("width"), nb::arg("height"), nb::arg("text"),
            "(height, width, 3).")
-      .def("film", &film, nb::arg("path"), nb::arg("steps"), nb::arg("fps").none(), nb::arg("speed"),
-           nb::arg("width"), nb::arg("height"), nb::arg("text"), nb::arg("overwrite"), "Steps and films.")
+      .def("video", &video, nb::arg("path"), nb::arg("steps"), nb::arg("fps").none(), nb::arg("speed"),
+           nb::arg("width"), nb::arg("height"), nb::arg("text"), nb::arg("overwrite"), "Steps and videos.")
       .def("page", &page, nb::arg("path"), nb::arg("steps"), nb::arg("fps").none(), nb::arg("speed"),
            nb::arg("live"), nb::arg("overwrite"), nb::arg("command"), "Steps and writes a page for browsers.")
       .def("log", &Simulation::log, "Of all steps.")

@@ -45,7 +45,7 @@ def simulation(scene: aspic.Scene | str, backend: str, **options: Any) -> aspic.
         pytest.skip(f"no device: {error}")
 
 
-def needs_pictures() -> None:
+def needs_images() -> None:
     simulation(aspic.load("cube-plane", small), "gpu")
 
 

@@ -100,7 +100,7 @@ def test_controls_are_inputs_by_step(robot: aspic.Scene) -> None:
     time = np.arange(60) / 60
     controls = np.stack([np.sin(6 * time), time], axis=1)
     sim, other = simulation(robot, "cpu"), simulation(robot, "cpu")
-    record = sim.run(every=0.02, record=["beam.centre-of-mass"], controls=controls)
+    record = sim.run(every=0.02, record=["beam.center-of-mass"], controls=controls)
     assert len(record.time) == 4 and sim.steps == 60
     for row in controls:
         other.channels = row
@@ -161,6 +161,6 @@ def test_without_inputs_there_is_none() -> None:
 @pytest.mark.parametrize("name", ["worm", "walker"])
 def test_robots_crawl(name: str) -> None:
     sim = simulation(aspic.load(name), "cpu")
-    run: Any = sim.run(6.0, record=["centre-of-mass"])
-    moved = run["centre-of-mass"][-1] - run["centre-of-mass"][0]
+    run: Any = sim.run(6.0, record=["center-of-mass"])
+    moved = run["center-of-mass"][-1] - run["center-of-mass"][0]
     assert moved[0] > 0.4 and abs(moved[2]) < 0.2 * moved[0]

@@ -70,7 +70,7 @@ def test_an_instance_is_read_as_a_simulation_is(batch: aspic.Batch) -> None:
     room = np.empty((64, 3))
     assert np.array_equal(one.read("velocities", out=room), lone.velocities)
     assert one.energy == lone.energy and np.array_equal(one.measures.momentum, lone.momentum)
-    assert np.array_equal(one["cube"].centre_of_mass, lone["cube[0]"].centre_of_mass)
+    assert np.array_equal(one["cube"].center_of_mass, lone["cube[0]"].center_of_mass)
     assert np.array_equal(one["cube"].surface, lone["cube"].surface) and one.masses.sum() == 64
     assert np.array_equal(one.springs.rest_length, lone.springs.rest_length) and one.balls == []
     assert one.scene == cube(1200.0) and one.divergence is None and batch[-2].hash == one.hash
@@ -88,11 +88,11 @@ def test_arrays_of_all_have_the_instance_first(batch: aspic.Batch) -> None:
     batch.step(30)
     assert batch.positions.shape == (4, 64, 3) and batch.positions.dtype == np.float32
     assert batch.read("ball-positions").shape == (4, 0, 3)
-    assert batch.energy.total.shape == (4,) and batch.centre_of_mass.shape == batch.momentum.shape == (4, 3)
+    assert batch.energy.total.shape == (4,) and batch.center_of_mass.shape == batch.momentum.shape == (4, 3)
     for i, one in enumerate(batch):
         assert np.array_equal(batch.positions[i], one.positions) and np.array_equal(batch.velocities[i], one.velocities)
         assert batch.energy.elastic[i] == one.energy.elastic and np.array_equal(batch.momentum[i], one.momentum)
-        assert batch.centre_of_mass[i] == pytest.approx(one["cube"].centre_of_mass, rel=1e-12)
+        assert batch.center_of_mass[i] == pytest.approx(one["cube"].center_of_mass, rel=1e-12)
     assert batch.steps.dtype == batch.diverged.dtype == np.int64
     other = aspic.Batch([cube(), cube(**{"cube[0].particles-per-edge": 5})])
     with pytest.raises(aspic.UsageError, match="instance 0 has 64, instance 1 has 125"):
@@ -102,11 +102,11 @@ def test_arrays_of_all_have_the_instance_first(batch: aspic.Batch) -> None:
 
 
 def test_runs_record_what_a_simulation_records(batch: aspic.Batch) -> None:
-    names = ["centre-of-mass", "momentum", "energy", "cube.positions", "positions"]
+    names = ["center-of-mass", "momentum", "energy", "cube.positions", "positions"]
     batch.step(10)
     out = batch.run(0.05, every=0.02, record=names)
     assert list(out) == names and out.time.shape == (4, 4) and out.diverged.tolist() == [0] * 4
-    assert out["centre-of-mass"].shape == out["momentum"].shape == (4, 4, 3)
+    assert out["center-of-mass"].shape == out["momentum"].shape == (4, 4, 3)
     assert out["energy"].total.shape == (4, 4) and out["cube.positions"].shape == (4, 4, 64, 3)
     assert out["cube.positions"].dtype == np.float32 and np.array_equal(out["positions"], out["cube.positions"])
     for i, one in enumerate(batch):
@@ -117,7 +117,7 @@ def test_runs_record_what_a_simulation_records(batch: aspic.Batch) -> None:
         assert np.array_equal(out["positions"][i, kept], path["positions"])
         assert np.array_equal(out["momentum"][i, kept], path["momentum"])
         assert np.array_equal(out["energy"].elastic[i, kept], path["energy"].elastic)
-        assert out["centre-of-mass"][i, kept] == pytest.approx(path["centre-of-mass"], rel=1e-12)
+        assert out["center-of-mass"][i, kept] == pytest.approx(path["center-of-mass"], rel=1e-12)
         assert np.array_equal(out["positions"][i, -1], one.positions) and out.hash[i] == alone(one.scene, 60).hash
     out.save("run.npz")
     back = aspic.BatchTrajectory.load("run.npz")
@@ -135,7 +135,7 @@ def test_runs_record_what_a_simulation_records(batch: aspic.Batch) -> None:
 def test_one_that_diverges_is_marked_and_the_others_go_on() -> None:
     scenes = [cube(), cube(1e9), cube(2000.0)]
     batch = aspic.Batch(scenes)
-    out = batch.run(0.3, every=0.01, record=["centre-of-mass", "energy"])
+    out = batch.run(0.3, every=0.01, record=["center-of-mass", "energy"])
     step = int(out.diverged[1])
     assert out.diverged.tolist() == [0, step, 0] and 0 < step < 300 and np.array_equal(batch.diverged, out.diverged)
     with pytest.raises(aspic.DivergedError) as caught:

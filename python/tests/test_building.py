@@ -70,7 +70,7 @@ def test_a_body_that_has_a_name_is_found_by_it(yard: aspic.Scene) -> None:
     yard.add_voxels("worm", worm() > 0, size=0.05, material="muscle", position=[0, 0.3, 0], pinned=["top"])
     sim = simulation(yard, "cpu")
     assert sim["worm"].name == sim["voxels[worm]"].name == sim["voxels"].name == "voxels[0]"
-    record = sim.run(0.02, record=["worm.positions", "voxels[0].centre-of-mass"])
+    record = sim.run(0.02, record=["worm.positions", "voxels[0].center-of-mass"])
     assert record["worm.positions"].shape == (2, len(sim["worm"].particles), 3)
     batch = aspic.Batch(yard, count=2)
     assert batch.run(0.01, record=["worm.positions"])["worm.positions"].shape[0] == 2
@@ -88,15 +88,15 @@ def test_meshes_become_bodies_and_say_what_was_repaired(yard: aspic.Scene, own_f
     sim = aspic.Simulation(yard, backend="reference")
     skin = sim["hare"].skin
     assert skin is not None and skin.triangles.max() == len(skin.vertices) - 1
-    centre = skin.vertices.mean(axis=0)
-    assert np.allclose(centre, sim["hare"].centre_of_mass, atol=0.05)
+    center = skin.vertices.mean(axis=0)
+    assert np.allclose(center, sim["hare"].center_of_mass, atol=0.05)
     moved = np.float32([0.5, -0.25, 2.0])
     sim["hare"].positions = sim["hare"].positions + moved
     after = sim["hare"].skin
     assert after is not None and np.allclose(after.vertices, skin.vertices + moved, atol=1e-6)
     assert aspic.Simulation(aspic.load("cube-plane"), backend="reference")["cube"].skin is None
     assert len(yard.notes) > 0 and all(note.startswith("rabbit: ") for note in yard.notes)
-    # A box, in millimetres, z upwards; first of one side alone.
+    # A box, in millimeters, z upwards; first of one side alone.
     corners = [(x, y, z) for x in (0, 20) for y in (0, 20) for z in (0, 40)]
     sides = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3)]
     lines = [f"v {x} {y} {z}" for x, y, z in corners] + [f"f {' '.join(map(str, side))}" for side in sides]

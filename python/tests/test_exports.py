@@ -162,9 +162,9 @@ def test_datasets_have_units_and_dimensions(motion: aspic.Trajectory, scene: asp
     assert not [name for name in body if str(name).startswith("model.")]
 
     batch = aspic.Batch(scene, count=3)
-    out = batch.run(0.1, every=0.05, record=["centre-of-mass", "energy", "positions"])
+    out = batch.run(0.1, every=0.05, record=["center-of-mass", "energy", "positions"])
     data = out.to_xarray()
-    assert data["centre-of-mass"].dims == ("instance", "sample", "axis") and data["time"].shape == (3, 3)
+    assert data["center-of-mass"].dims == ("instance", "sample", "axis") and data["time"].shape == (3, 3)
     assert data["positions"].shape == (3, 3, 64, 3) and data["hash"].values.tolist() == out.hash
     assert np.array_equal(data["energy.elastic"], out["energy"].elastic)
 

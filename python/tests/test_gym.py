@@ -1,4 +1,4 @@
-"""Environments: Gymnasium's checker, modes of automatic resets, seeds, spaces, divergence, errors, pictures."""
+"""Environments: Gymnasium's checker, modes of automatic resets, seeds, spaces, divergence, errors, images."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Any
 import aspic
 import numpy as np
 import pytest
-from conftest import needs_pictures
+from conftest import needs_images
 
 gymnasium: Any = pytest.importorskip(
     "gymnasium", reason="gymnasium is not installed: pip install gymnasium"
@@ -38,10 +38,10 @@ class Lift(BatchEnv):
             one.pulls = [aspic.Pull(0, (0, 1e4, 0), 0.1 + max(force, 0.0))]
 
     def observe(self) -> Any:
-        return np.stack([self.batch.centre_of_mass[:, 1], self.batch.time], axis=1).astype(np.float32)
+        return np.stack([self.batch.center_of_mass[:, 1], self.batch.time], axis=1).astype(np.float32)
 
     def judge(self) -> Any:
-        height = self.batch.centre_of_mass[:, 1]
+        height = self.batch.center_of_mass[:, 1]
         return height, height > 3
 
 
@@ -108,8 +108,8 @@ def test_walkers_do_not_depend_on_others_nor_on_threads() -> None:
     assert three == hashes(3, 1, [20, 21, 22]) and len(set(three)) == 3 and hashes(1, 1, 21) == three[1:2]
 
 
-def test_it_passes_the_checker_with_pictures() -> None:
-    needs_pictures()
+def test_it_passes_the_checker_with_images() -> None:
+    needs_images()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         env = gymnasium.make("aspic/Crawl-v0", render_mode="rgb_array", width=64, height=36).unwrapped
@@ -241,7 +241,7 @@ def test_tendons_draw_their_ends_together_and_push_nothing() -> None:
     assert observations[1, 3] < -0.01 and abs(observations[1, 2]) < 0.005
     # 20 steps hold the pulls' anchors, 1 km away: the forces are equal but for that.
     assert np.abs(envs.batch.momentum).max() < 0.02 and np.abs(rewards).max() < 1e-3
-    assert infos["distance"] == pytest.approx(envs.batch.centre_of_mass[:, 0], abs=1e-6)
+    assert infos["distance"] == pytest.approx(envs.batch.center_of_mass[:, 0], abs=1e-6)
     assert envs.ends.tolist() == [[0, 63], [3, 15]]
     edges = Crawl(1).ends
     x = aspic.Simulation(aspic.gym.crawler(), "cpu").positions
@@ -319,14 +319,14 @@ def test_numbers_outside_of_the_space_become_its_nearest() -> None:
     assert results[0] == results[1] == reference.batch.hash
 
 
-def test_pictures_are_of_each_environment() -> None:
-    needs_pictures()
+def test_images_are_of_each_environment() -> None:
+    needs_images()
     envs = Crawl(2, render_mode="rgb_array", width=64, height=36)
     envs.reset(seed=1)
     envs.step(np.array([[0] * 8, [1] * 8], np.float32))
-    pictures = envs.render()
-    assert pictures is not None and [type(p) for p in pictures] == [np.ndarray] * 2 and pictures[0].shape == (36, 64, 3)
-    assert not np.array_equal(*pictures) and np.array_equal(pictures[1], envs.picture(1))
+    images = envs.render()
+    assert images is not None and [type(p) for p in images] == [np.ndarray] * 2 and images[0].shape == (36, 64, 3)
+    assert not np.array_equal(*images) and np.array_equal(images[1], envs.image(1))
     envs.close()
 
 

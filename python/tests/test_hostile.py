@@ -126,12 +126,12 @@ METHODS: dict[tuple[str, str], Calls] = {
         lambda: sim.export("x.npz", steps=bad),
         lambda: sim.export("x.npz", 0.0, every=bad),
     ],
-    ("Simulation", "film"): lambda sim, bad: [
-        lambda: sim.film("x.mp4", bad),
-        lambda: sim.film("x.mp4", steps=bad),
-        lambda: sim.film("x.mp4", 0.0, fps=bad),
-        lambda: sim.film("x.mp4", 0.0, speed=bad),
-        lambda: sim.film("x.mp4", 0.0, width=bad),
+    ("Simulation", "video"): lambda sim, bad: [
+        lambda: sim.video("x.mp4", bad),
+        lambda: sim.video("x.mp4", steps=bad),
+        lambda: sim.video("x.mp4", 0.0, fps=bad),
+        lambda: sim.video("x.mp4", 0.0, speed=bad),
+        lambda: sim.video("x.mp4", 0.0, width=bad),
     ],
     ("Simulation", "page"): lambda sim, bad: [
         lambda: sim.page("x.html", bad),
@@ -224,7 +224,7 @@ def test_another_time_step_keeps_the_time(backend: str, factor: float) -> None:
     sim.update({"simulation.timestep": factor * h})
     assert sim.time == pytest.approx(1000 * h) and sim.steps == 1000 / factor
     sim.step(2)
-    assert np.abs(sim.positions - before).max() < 0.01  # the plate moved by a metre
+    assert np.abs(sim.positions - before).max() < 0.01  # the plate moved by a meter
     assert f"step = {round(1000 / factor)}" in sim.input_log
 
 
@@ -251,7 +251,7 @@ def test_another_frequency_goes_on_from_its_phase(kind: str) -> None:
         return float(np.linalg.norm(sim.velocities, axis=1).max())
 
     key = next(key for key in aspic.load("worm").keys() if key.endswith(".frequency"))
-    assert after(1.01) == pytest.approx(after(1.0), abs=0.02)  # a jump of the phase kicks by a metre a second
+    assert after(1.01) == pytest.approx(after(1.0), abs=0.02)  # a jump of the phase kicks by a meter a second
 
 
 def test_moving_terrain_goes_on_from_its_phase() -> None:
@@ -411,7 +411,7 @@ def test_pages_have_a_largest_rate(scene: aspic.Scene) -> None:
         (lambda sim: sim.update({"cube[0].position": [0, 9, 0]}), "start"),
         (lambda sim: sim.save("a\0b.aspic"), "no path of a file"),
         (lambda sim: sim.export("a\0b.npz", 0.0), "no path of a file"),
-        (lambda sim: sim.film(None, 0.0), "path is a str"),
+        (lambda sim: sim.video(None, 0.0), "path is a str"),
     ],
 )
 def test_errors_say_what_to_do(scene: aspic.Scene, call: Callable[[Any], Any], says: str) -> None:

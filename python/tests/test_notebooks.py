@@ -6,7 +6,7 @@ import pathlib
 from typing import Any
 
 import pytest
-from conftest import needs_pictures, root
+from conftest import needs_images, root
 
 folder = root / "examples/notebooks"
 NOTEBOOKS = ["integrators.ipynb", "parameters.ipynb", "stability.ipynb"]
@@ -18,7 +18,7 @@ def run(name: str) -> dict[str, Any]:
         pytest.skip("the notebooks are not here")
     matplotlib: Any = pytest.importorskip("matplotlib")
     pytest.importorskip("matplotlib.pyplot")
-    needs_pictures()
+    needs_images()
     matplotlib.use("agg")
     cells = json.loads((folder / name).read_text(encoding="utf-8"))["cells"]
     names: dict[str, Any] = {}

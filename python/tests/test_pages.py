@@ -11,7 +11,7 @@ from typing import Any
 
 import aspic
 import pytest
-from conftest import needs_pictures, root
+from conftest import needs_images, root
 
 # What is optional; test_sweep_engines.py has the tests of the first two.
 ENGINES = ("dask", "submitit", "gymnasium")
@@ -41,7 +41,7 @@ def test_no_page_with_python_is_forgotten() -> None:
 
 @pytest.mark.parametrize("page", PAGES)
 def test_every_block_of_a_page_runs(page: str) -> None:
-    needs_pictures()
+    needs_images()
     names: dict[str, object] = {"__name__": "__main__"}
     for line, block in blocks(page):
         wanted = [engine for engine in ENGINES if re.search(rf"(import|from) {engine}\b", block)]
@@ -56,7 +56,7 @@ def test_the_readme_prints_the_hash_of_the_program_on_every_backend(
     text = re.sub(r"^image = .*$", "", "".join(block for _, block in blocks("README.md")), flags=re.M)
     for backend in ("reference", "cpu", "gpu"):
         if backend == "gpu":
-            needs_pictures()
+            needs_images()
         names: dict[str, Any] = {}
         exec(text.replace("aspic.Simulation(scene)", f"aspic.Simulation(scene, {backend!r})"), names)
         walked, last = capsys.readouterr().out.splitlines()

@@ -194,3 +194,17 @@ def test_the_window_gets_the_scene(scene: aspic.Scene, monkeypatch: pytest.Monke
     assert scene.view().wait() == 0
     assert open(f"{tmp_path}/word", encoding="utf-8").read() == "view\n"
     assert aspic.load(f"{tmp_path}/seen.toml") == scene
+
+
+def test_former_names_are_accepted() -> None:
+    scene = aspic.load("cube-sphere")
+    scene["contact.epsilon"] = 0.02
+    assert scene["contact.distance"] == scene["contact.resting-speed"] == scene["contact.epsilon"] == 0.02
+    assert scene["terrain[0].centre"] == scene["terrain[0].center"]
+    with pytest.raises(aspic.SceneError, match="former name of contact.distance"):
+        scene.update({"contact.epsilon": 0.01, "contact.distance": 0.01})
+    sim = aspic.Simulation(scene, "cpu")
+    assert np.array_equal(sim["cube[0]"].centre_of_mass, sim["cube[0]"].center_of_mass)
+    run = sim.run(0.01, record=["centre-of-mass", "cube[0].center-of-mass"])
+    assert np.array_equal(run["centre-of-mass"], run["cube[0].centre-of-mass"])
+    assert aspic.Simulation.film is aspic.Simulation.video

@@ -240,7 +240,7 @@ def test_energies_momentum_and_bodies(sim: aspic.Simulation) -> None:
     assert sim.energy.kinetic == pytest.approx(0.5 * (masses[:, None] * v**2).sum(), rel=1e-12)
     assert sim.momentum == pytest.approx((masses[:, None] * v).sum(axis=0), rel=1e-12)
     assert body.momentum == pytest.approx(sim.momentum, rel=1e-12)
-    assert body.centre_of_mass == pytest.approx(sim.positions.astype(np.float64).mean(axis=0), rel=1e-12)
+    assert body.center_of_mass == pytest.approx(sim.positions.astype(np.float64).mean(axis=0), rel=1e-12)
     assert sim.measures.max_speed == pytest.approx(np.linalg.norm(v, axis=1).max(), rel=1e-12)
     assert sim.energy.total == sim.energy.kinetic + sim.energy.elastic + sim.energy.gravitational
     springs = sim.springs
@@ -296,13 +296,13 @@ def test_bodies_and_balls_have_their_own_numbers() -> None:
 
 
 def test_runs_record_at_intervals(sim: aspic.Simulation) -> None:
-    names = ["energy", "centre-of-mass", "cube[0].positions", "cube[0].momentum", "velocities", "max_speed", "hash"]
+    names = ["energy", "center-of-mass", "cube[0].positions", "cube[0].momentum", "velocities", "max_speed", "hash"]
     path = sim.run(0.1, every=0.0125, record=names)
     assert path.steps.tolist() == [0, 12, 25, 38, 50, 62, 75, 88, 100]  # halves to even, as round() does
     assert path.time == pytest.approx(path.steps * 1e-3)
     assert list(path) == names and sim.steps == 100
     assert path["energy"].total.shape == (9,) and path["cube[0].positions"].shape == (9, 64, 3)
-    assert path["centre-of-mass"].shape == (9, 3) and path["hash"][-1] == sim.hash
+    assert path["center-of-mass"].shape == (9, 3) and path["hash"][-1] == sim.hash
     assert np.array_equal(path["cube[0].positions"][-1], sim.positions)
     assert path["energy"].kinetic[-1] == sim.energy.kinetic
     again = aspic.Simulation(sim.scene, "cpu")
@@ -325,10 +325,10 @@ def test_runs_record_at_intervals(sim: aspic.Simulation) -> None:
 
 def test_a_trajectory_becomes_a_dataset(scene: aspic.Scene) -> None:
     pytest.importorskip("xarray")
-    names = ["energy", "cube[0].positions", "centre-of-mass", "max-speed"]
+    names = ["energy", "cube[0].positions", "center-of-mass", "max-speed"]
     path = aspic.Simulation(scene, "cpu").run(0.1, every=0.02, record=names)
     data = path.to_xarray()
-    assert data["energy.kinetic"].dims == ("time",) and data["centre-of-mass"].dims == ("time", "axis")
+    assert data["energy.kinetic"].dims == ("time",) and data["center-of-mass"].dims == ("time", "axis")
     assert data["cube[0].positions"].shape == (6, 64, 3) and data["step"].values.tolist() == path.steps.tolist()
     assert float(data["max-speed"].sel(time=0.1)) == path["max-speed"][-1]
 
@@ -397,7 +397,7 @@ sim = aspic.Simulation("cube-plane", "auto")
 sim.step(5)
 print(sim.backend, sim.reason)
 assert "libegl1" in aspic.devices()[0].reason and aspic.devices()[1].name
-for fail in (lambda: aspic.Simulation("cube-plane", "gpu"), sim.render, lambda: sim.film("f", steps=1)):
+for fail in (lambda: aspic.Simulation("cube-plane", "gpu"), sim.render, lambda: sim.video("f", steps=1)):
     try:
         fail()
     except aspic.DeviceError as error:

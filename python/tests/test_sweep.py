@@ -38,7 +38,7 @@ def files(folder: str = "runs") -> dict[str, Any]:
 
 
 def height(run: aspic.Trajectory) -> float:
-    return float(run["centre-of-mass"][-1, 1])
+    return float(run["center-of-mass"][-1, 1])
 
 
 def stretched(run: aspic.Trajectory) -> float:
@@ -64,9 +64,9 @@ def test_every_row_is_the_run_of_its_values(scene: aspic.Scene) -> None:
             ),
             "cpu",
         )
-        path = alone.run(record=["centre-of-mass"])
+        path = alone.run(record=["center-of-mass"])
         assert row["hash"] == alone.hash and row["steps"] == alone.steps == 100
-        assert row["up"] == path["centre-of-mass"][-1, 1]
+        assert row["up"] == path["center-of-mass"][-1, 1]
         assert row["kinetic"] == alone.energy.kinetic and row["total"] == alone.energy.total
         assert row["time"] == alone.time
 
@@ -150,8 +150,8 @@ def test_a_key_is_of_the_motion_alone(scene: aspic.Scene) -> None:
     stiff = "cube[0].structural.stiffness"
     first = keys(scene, {stiff: [500.0], "h": [0.001]}, backend="cpu")
     assert len(first[0]) == 32
-    looks = scene.copy({"name": "another", "view.colour": "strain", "simulation.duration": 3})
-    assert keys(looks, {"h": [1e-3], stiff: [500]}, backend="cpu") == first, "names, pictures, order, spelling"
+    looks = scene.copy({"name": "another", "view.color": "strain", "simulation.duration": 3})
+    assert keys(looks, {"h": [1e-3], stiff: [500]}, backend="cpu") == first, "names, images, order, spelling"
     assert keys(scene.copy({stiff: 700}), {stiff: [500], "h": [0.001]}, backend="cpu") == first
     others = [
         keys(scene, {stiff: [501], "h": [0.001]}, backend="cpu"),
@@ -191,8 +191,8 @@ def test_arguments_that_are_wrong_are_said_before_any_run(scene: aspic.Scene) ->
         ("list of values", {"k": 500}, {}),
         ("list of values", {"integrator": "midpoint"}, {}),
         ("either duration or steps", {"k": [1]}, {"steps": 3, "duration": 1.0}),
-        ("cannot be recorded", {"k": [1]}, {"record": ["centre"]}),
-        ("cannot be recorded", {"k": [1]}, {"metrics": {"x": lambda run: run["centre"]}}),
+        ("cannot be recorded", {"k": [1]}, {"record": ["center"]}),
+        ("cannot be recorded", {"k": [1]}, {"metrics": {"x": lambda run: run["center"]}}),
         ("already", {"k": [1]}, {"metrics": {"height": height}}),
         ("function", {"k": [1]}, {"metrics": {"x": "y"}}),
         ("out=", {"k": [1]}, {"trajectories": True, "record": ["energy"], "out": None}),
@@ -213,7 +213,7 @@ def test_arguments_that_are_wrong_are_said_before_any_run(scene: aspic.Scene) ->
 
 
 def coordinate(run: aspic.Trajectory, axis: int) -> float:
-    return float(run["centre-of-mass"][-1, axis])
+    return float(run["center-of-mass"][-1, axis])
 
 
 class Coordinate:
@@ -333,10 +333,10 @@ def test_trajectories_are_kept_and_read_back(scene: aspic.Scene) -> None:
     assert dict(grid.sizes) == {"k": 2, "mu": 3}
     assert float(grid["up"].sel(k=1000, mu=0.2)) > 0 and grid["hash"].dtype.kind == "U"
     several = aspic.sweep(
-        scene, {"k": [500, 1e5]}, out="more", record=["centre-of-mass"], every=0.02, trajectories=True, duration=0.1
+        scene, {"k": [500, 1e5]}, out="more", record=["center-of-mass"], every=0.02, trajectories=True, duration=0.1
     ).to_xarray(trajectories=True)
-    assert several["centre-of-mass(t)"].dims == ("k", "time", "axis") and several["time"].shape == (6,)
-    assert np.isnan(several["centre-of-mass(t)"].sel(k=1e5).values[-1]).all() and several["end_time"][0] == 0.1
+    assert several["center-of-mass(t)"].dims == ("k", "time", "axis") and several["time"].shape == (6,)
+    assert np.isnan(several["center-of-mass(t)"].sel(k=1e5).values[-1]).all() and several["end_time"][0] == 0.1
 
 
 def test_tables_are_saved_and_collected(scene: aspic.Scene) -> None:

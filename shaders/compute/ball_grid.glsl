@@ -8,7 +8,7 @@ const float farthest_cell = 262144.0;
 
 // Position in cells.
 vec3 in_cells(vec3 x) {
-  precise vec3 scaled = x * ball_cells_per_metre;
+  precise vec3 scaled = x * ball_cells_per_meter;
   scaled = min(max(scaled, vec3(-farthest_cell)), vec3(farthest_cell));
   return scaled;
 }

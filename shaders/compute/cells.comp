@@ -1,7 +1,7 @@
 // Force path `lattice`, bodies of cells: as lattice.comp, but an invocation's run is one of a block's places or all four,
-// neighbours are found with the map of blocks, and springs in the patterns that a block's record names
+// neighbors are found with the map of blocks, and springs in the patterns that a block's record names
 // (src/model/cell_blocks.h). With ASPIC_MIXED the blocks whose springs are of several sets of classes, else all others.
-// Neighbours come in ascending index: of the six two steps away each is followed by the rows up to the next. They are a
+// Neighbors come in ascending index: of the six two steps away each is followed by the rows up to the next. They are a
 // loop, since Mesa compiled them for 20 s one by one, with classes that are read from memory.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
@@ -10,7 +10,7 @@
 #include "compute/stage.glsl"
 #include "compute/spring_classes.glsl"
 #include "compute/cells.glsl"
-#include "compute/neighbour.glsl"
+#include "compute/neighbor.glsl"
 
 Particle own[ASPIC_LATTICE_RUN];
 Pattern patterns[ASPIC_LATTICE_RUN];
@@ -26,7 +26,7 @@ precise vec3 other_x, other_v;
   own[p] = own[p + 1];  \
   force[p] = force[p + 1];
 // What lies t steps from the run's first place, in the row at hand.
-#define SEE(t) read_neighbour(particle_at(body, row_block, first_place + (t)), other_x, other_v);
+#define SEE(t) read_neighbor(particle_at(body, row_block, first_place + (t)), other_x, other_v);
 // Its force on particle p of the run; `plain` is the spring's class where it follows from the direction.
 #define LINK(p, links, n, plain)                                                                               \
   {                                                                                                            \
@@ -71,7 +71,7 @@ void main() {
   EACH_OF_RUN(TAKE)
   SpringClass classes[LATTICE_CLASSES];
   for (uint c = 0u; c < LATTICE_CLASSES; ++c) classes[c] = spring_class(first_class(body, patterns[0]) + c);
-  uint d = 0u, r = 0u;  // direction, and row, of the next neighbour
+  uint d = 0u, r = 0u;  // direction, and row, of the next neighbor
   for (uint s = 0u; s < 6u; ++s) {
     // Two steps along −x, −y, −z, z, y and x.
     int steps = s < 3u ? -2 : 2;

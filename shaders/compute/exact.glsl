@@ -8,7 +8,7 @@
 // NVIDIA's compiler takes a millisecond for each operation.
 //   quick  residuals by fma alone (Markstein, IBM J. Res. Dev. 34, 1990). Two steps are exact for every operand from a start
 //          within 2 units in the last place; one step is on devices for which the canary has found no exception.
-//   slow   a Newton step, then of the value and its neighbour on the exact value's side the one with the smaller residual
+//   slow   a Newton step, then of the value and its neighbor on the exact value's side the one with the smaller residual
 // tests/gpu/exact_forms.cpp compiles this file as C++ and tries all mantissas: it keeps to what both languages share.
 #include "compute/device_arithmetic.glsl"
 
@@ -67,8 +67,8 @@ float residual(float a, float c, float b) {
 #endif
 }
 
-// The neighbour of a positive q on the side of the exact value, which r has the sign of.
-float neighbour(float q, float r) {
+// The neighbor of a positive q on the side of the exact value, which r has the sign of.
+float neighbor(float q, float r) {
   return uintBitsToFloat(r < 0.0 ? floatBitsToUint(q) - 1u : floatBitsToUint(q) + 1u);
 }
 
@@ -78,7 +78,7 @@ float middle_div(float a, float b) {
   precise float r = residual(a, q, b);
   q = q + r * y;
   r = residual(a, q, b);
-  precise float other = neighbour(q, r);
+  precise float other = neighbor(q, r);
   return abs(residual(a, other, b)) < abs(r) ? other : q;
 }
 
@@ -88,7 +88,7 @@ float middle_sqrt(float x) {
   precise float twice = root + root;
   root = root + device_div(r, twice);
   r = residual(x, root, root);
-  precise float other = neighbour(root, r);
+  precise float other = neighbor(root, r);
   return abs(residual(x, other, other)) < abs(r) ? other : root;
 }
 #endif

@@ -1,4 +1,4 @@
-// Force path `gather`: one invocation per particle evaluates its own springs, in ascending neighbour index, and goes
+// Force path `gather`: one invocation per particle evaluates its own springs, in ascending neighbor index, and goes
 // on to the stage of the integrator and the terrain: no force is ever stored. With ASPIC_LATTICES it does so for the
 // particles outside lattices alone.
 #include "compute/layout.glsl"
@@ -8,7 +8,7 @@
 #include "compute/incident.glsl"
 #include "compute/terms/link_force.glsl"
 #include "compute/stage.glsl"
-#include "compute/neighbour.glsl"
+#include "compute/neighbor.glsl"
 
 void main() {
   uint place = item_index();
@@ -27,7 +27,7 @@ void main() {
     Link link;
     if (!listed_link_at(w, link)) continue;
     precise vec3 x, v;
-    read_neighbour(link.other, x, v);
+    read_neighbor(link.other, x, v);
     f += link_force(link.spring, p.position.xyz, p.velocity.xyz, x, v).xyz;
   }
   finish_stage(i, p, f);

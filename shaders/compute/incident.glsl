@@ -1,6 +1,6 @@
-// The springs of each particle in ascending neighbour index, and the walk over them:
+// The springs of each particle in ascending neighbor index, and the walk over them:
 //   for (Walk w = walk(i); w.at < w.end; ++w.at) { Link link; if (!link_at(w, link)) continue; … }
-// A word is neighbour << class_bits | class; on the force path per-spring it is the spring's, see sum_springs.comp.
+// A word is neighbor << class_bits | class; on the force path per-spring it is the spring's, see sum_springs.comp.
 // With ASPIC_LATTICES those of lattices follow from the indices; ASPIC_LISTED: there are particles outside them too.
 #include "compute/spring_classes.glsl"
 

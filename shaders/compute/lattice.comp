@@ -1,6 +1,6 @@
 // Force path `lattice`: gather for boxes, whose springs follow from the particles' indices. An invocation takes
-// ASPIC_LATTICE_RUN particles that lie one after the other, so that each neighbour is read once for all of them. The
-// neighbours come in ascending index, so every particle adds its springs in that order; one that lies outside the lattice
+// ASPIC_LATTICE_RUN particles that lie one after the other, so that each neighbor is read once for all of them. The
+// neighbors come in ascending index, so every particle adds its springs in that order; one that lies outside the lattice
 // is left out of the sum.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"

@@ -1,5 +1,5 @@
-// Rows of neighbours, for an invocation's run of 1 or 4 particles. EACH_LINK walks over all of them in ascending index.
-#include "compute/neighbour.glsl"
+// Rows of neighbors, for an invocation's run of 1 or 4 particles. EACH_LINK walks over all of them in ascending index.
+#include "compute/neighbor.glsl"
 
 Particle own[ASPIC_LATTICE_RUN];
 precise vec3 force[ASPIC_LATTICE_RUN];
@@ -26,7 +26,7 @@ precise vec3 other_x, other_v;
   {                                                                           \
     int to = first_of_run + (di)*plane_stride + (dj)*row_stride + (t);        \
     uint other = uint(clamp(to, first_of_lattice, last_of_lattice));          \
-    read_neighbour(other, other_x, other_v);                                  \
+    read_neighbor(other, other_x, other_v);                                  \
   }
 #endif
 #define FAR(di, dj, t) READ_OTHER(di, dj, t)

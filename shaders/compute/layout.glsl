@@ -398,7 +398,7 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   uint bucket_mask;           // buckets of the grid − 1
   float ball_restitution;     // e of balls and particles
   float ball_friction;        // μ of balls and particles
-  float ball_cells_per_metre;  // of the grid
+  float ball_cells_per_meter;  // of the grid
   uint mark_shift;            // a mark stands for 2^mark_shift blocks of particles
   vec4 resistance_constants;  // include/aspic/settings.h
   float set_speed;            // v_s [m/s]: contact.resting-speed

@@ -1,5 +1,5 @@
 // Force path `per-spring`, second pass: one invocation per particle sums the forces of its springs in ascending
-// neighbour index, then continues with the stage of the integrator and the terrain.
+// neighbor index, then continues with the stage of the integrator and the terrain.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"

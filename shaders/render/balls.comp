@@ -1,4 +1,4 @@
-// Turns every ball by its angular velocity since the picture before, and adds the balls to the box of each light.
+// Turns every ball by its angular velocity since the image before, and adds the balls to the box of each light.
 #include "render/layout.glsl"
 #include "render/bounds.glsl"
 #include "compute/dispatch.glsl"
@@ -9,7 +9,7 @@ layout(location = LOCATION_COUNT) uniform uint ball_count;
 layout(location = LOCATION_FIRST) uniform uint first_ball;
 layout(location = LOCATION_ELAPSED) uniform float elapsed;
 
-// How many times as far as its target the eye looks: balls beyond are left out where one could spoil the picture of all.
+// How many times as far as its target the eye looks: balls beyond are left out where one could spoil the image of all.
 const float far_share = 3.0;
 
 void main() {

@@ -3,14 +3,14 @@
 #include "render/sight.glsl"
 #include "render/shadow.glsl"
 
-layout(binding = UNIT_COLOUR_MAP) uniform sampler2D colour_map;
+layout(binding = UNIT_COLOR_MAP) uniform sampler2D color_map;
 in vec3 on_square;
-flat in vec3 centre;
+flat in vec3 center;
 flat in float size;
 flat in vec4 turn;
-flat in vec3 own_colour;
+flat in vec3 own_color;
 flat in float shown;
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 // Below 0 in the twelve pentagons of a truncated icosahedron, above 0 in its twenty hexagons: which plane the direction
 // meets first. Golden ratio φ; the planes' distances from the middle are 2.3274 and 2.2673 edges.
@@ -26,13 +26,13 @@ float patches(vec3 direction) {
 void main() {
   vec3 ray = sight_of(on_square);
   vec3 start = vec3((1.0 - viewer.w) * on_square.xy, 0.0);
-  float along = dot(centre - start, ray);
-  vec3 beside = start + along * ray - centre;
+  float along = dot(center - start, ray);
+  vec3 beside = start + along * ray - center;
   float off = length(beside) / size;
   float coverage = clamp((1.0 - off) / fwidth(off) + 0.5, 0.0, 1.0);
   if (coverage <= 0.0) discard;
   vec3 n_view = normalize(beside / size - sqrt(max(1.0 - off * off, 0.0)) * ray);
-  vec3 hit = centre + size * n_view;
+  vec3 hit = center + size * n_view;
   vec4 clip = projection * vec4(hit, 1.0);
   gl_FragDepth = clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 1.0);
 
@@ -43,9 +43,9 @@ void main() {
   vec3 own = n + 2.0 * cross(-turn.xyz, cross(-turn.xyz, n) + turn.w * n);
   float at = patches(own);
   float blur = max(0.7 * fwidth(at), 1e-5);
-  vec3 light_tone = colour_mode == COLOUR_SPEED
-                        ? textureLod(colour_map, vec2(clamp(shown, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5), 0.0).rgb
-                        : own_colour;
+  vec3 light_tone = color_mode == COLOR_SPEED
+                        ? textureLod(color_map, vec2(clamp(shown, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5), 0.0).rgb
+                        : own_color;
   vec3 base = mix(0.06 * light_tone + 0.012, light_tone, smoothstep(-blur, blur, at));
 
   float nl = max(dot(n, sun.xyz), 0.0);
@@ -53,5 +53,5 @@ void main() {
   float open = skylight_above(world - 1.2 * size * transpose(mat3(lights[LIGHT_SKY]))[2], 2.0 * size);
   vec3 light = base * (0.46 * sun_light * nl * sphere_shade(world) + 0.62 * open * ambient(n));
   light += sun_light * 0.04 * highlight(n, v, sun.xyz, 0.3) + 0.3 * open * fresnel(dot(n, v), 0.04) * sky(reflect(-v, n));
-  colour = vec4(to_display(light), coverage);
+  color = vec4(to_display(light), coverage);
 }

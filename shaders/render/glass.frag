@@ -7,7 +7,7 @@
 layout(location = LOCATION_SIDE) uniform int side;
 in vec3 world;
 in vec3 local;
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 // Thin lines every `step_size` of a coordinate, as wide as a pixel or two at any distance; none where they crowd.
 float lines(float coordinate, float step_size, float width) {
@@ -33,7 +33,7 @@ void main() {
     float alpha = clamp(0.02 + 0.75 * mirror + 0.06 * grid, 0.0, 0.85);
     vec3 light = mix(vec3(0.75, 0.9, 0.92), reflected, 0.6);
     float shine = 0.25 * highlight(n, v, sun.xyz, 0.18);
-    colour = vec4(to_display(light + sun_light * shine), clamp(alpha + shine, 0.0, 1.0));
+    color = vec4(to_display(light + sun_light * shine), clamp(alpha + shine, 0.0, 1.0));
     return;
   }
   vec3 sunlit = sun_light * mix(vec3(1.0), sunlight_at(world), 0.9) * (0.25 + 0.35 * max(-n.y, 0.0));
@@ -42,5 +42,5 @@ void main() {
   vec3 light = wall * (0.6 * sunlit + 0.55 * ambient(-n) * open) + 0.35 * grid * vec3(0.9, 1.0, 1.0);
   light = mix(light, reflected, 0.35 * mirror);
   float alpha = clamp(0.10 + 0.38 * low + 0.35 * mirror + 0.25 * grid, 0.0, 0.9);
-  colour = vec4(to_display(light), alpha);
+  color = vec4(to_display(light), alpha);
 }

@@ -1,4 +1,4 @@
-// A translucent body: what lies behind it, bent and tinted by the thickness crossed; sunlight that has travelled inside
+// A translucent body: what lies behind it, bent and tinted by the thickness crossed; sunlight that has traveled inside
 // it; skylight; reflection at the surface.
 #include "render/frame.glsl"
 #include "render/sight.glsl"
@@ -7,12 +7,12 @@
 layout(binding = UNIT_SUN_MAP) uniform sampler2D sun_map;
 layout(binding = UNIT_THICKNESS) uniform sampler2D thickness_map;
 layout(binding = UNIT_BEHIND) uniform sampler2D behind;
-layout(binding = UNIT_COLOUR_MAP) uniform sampler2D colour_map;
-layout(location = LOCATION_BASE_COLOUR) uniform vec4 base_colour;  // w: half the length that light travels inside [m]
+layout(binding = UNIT_COLOR_MAP) uniform sampler2D color_map;
+layout(location = LOCATION_BASE_COLOR) uniform vec4 base_color;  // w: half the length that light travels inside [m]
 in vec3 world;
 in vec3 surface_normal;
 in float shown;
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 void main() {
   vec3 n = normalize(surface_normal);
@@ -20,10 +20,10 @@ void main() {
   if (!gl_FrontFacing) n = -n;
   // On an outline between flat faces the smooth normal turns from the eye before the surface does.
   float nv = max(dot(n, v), 0.2);
-  bool mapped = colour_mode >= COLOUR_STRAIN;
-  vec3 base = mapped ? textureLod(colour_map, vec2(clamp(shown, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5), 0.0).rgb
-                     : base_colour.rgb;
-  float reach = base_colour.w;
+  bool mapped = color_mode >= COLOR_STRAIN;
+  vec3 base = mapped ? textureLod(color_map, vec2(clamp(shown, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5), 0.0).rgb
+                     : base_color.rgb;
+  float reach = base_color.w;
 
   // Sunlight: how far it has come inside the body, from the first surface it met.
   vec3 p = in_light(LIGHT_SUN, world);
@@ -58,5 +58,5 @@ void main() {
   vec3 light = body * opacity + rim * 0.55 * mix(base, vec3(1.0), 0.15) * ambient(n) * opacity;
   light = light * (1.0 - mirror) + reflected * mirror;
   light += sun_light * (0.035 * highlight(n, v, sun.xyz, 0.22) + 0.02 * highlight(n, v, sun.xyz, 0.5)) * step(inside, 0.25);
-  colour = vec4(to_display(light + seen * tint * (1.0 - opacity) * (1.0 - mirror)), 1.0);
+  color = vec4(to_display(light + seen * tint * (1.0 - opacity) * (1.0 - mirror)), 1.0);
 }

@@ -16,6 +16,6 @@ void main() {
   vec3 size = upper - lower;
   float margin = light == uint(LIGHT_SKY) ? SKY_MAP_MARGIN : SUN_MAP_MARGIN;
   float extent = margin * max(size.x, size.y) + MAP_BORDER;
-  light_boxes[light].centre = vec4(0.5 * (lower + upper), extent);
+  light_boxes[light].center = vec4(0.5 * (lower + upper), extent);
   light_boxes[light].depth = vec4(0.55 * size.z + 0.05, 1.0 / extent, 0.0, 0.0);
 }

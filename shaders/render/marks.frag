@@ -1,11 +1,11 @@
 // Marks in two tones, a light one within a dark one, so that they are seen on any ground.
 #include "render/layout.glsl"
 
-layout(location = LOCATION_BASE_COLOUR) uniform vec4 base_colour;
+layout(location = LOCATION_BASE_COLOR) uniform vec4 base_color;
 layout(location = LOCATION_MARK) uniform vec4 mark;
 in vec2 at;
 flat in float pixel;
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 // Signed distance from the mark's light part, in its radii, and that of its dark rim.
 vec2 shape() {
@@ -26,8 +26,8 @@ void main() {
   float light = clamp(0.5 - d.x, 0.0, 1.0);
   float cover = clamp(0.5 - d.y, 0.0, 1.0);
   if (cover <= 0.0) discard;
-  vec3 shown = mix(vec3(0.012), base_colour.rgb, light);
+  vec3 shown = mix(vec3(0.012), base_color.rgb, light);
   if (mark.w > 0.0)
     shown = mix(1.055 * pow(shown, vec3(1.0 / 2.4)) - 0.055, 12.92 * shown, lessThanEqual(shown, vec3(0.0031308)));
-  colour = vec4(shown, cover * mark.z);
+  color = vec4(shown, cover * mark.z);
 }

@@ -16,16 +16,16 @@ flat out float pixel;  // of the mark's radius
 void main() {
   if (mark.x == MARK_PINNED && kept(gl_in[0].gl_Position.xyz) < 0.0) return;
   if (mark.x == MARK_PINNED && vertex_pinned[0] == 0.0) return;
-  vec3 centre = (view * vec4(mix(gl_in[0].gl_Position.xyz, anchor.xyz, anchor.w), 1.0)).xyz;
-  float metres = pixel_at(-centre.z);  // of a pixel
-  if (metres <= 0.0) return;
-  float r = max(radius, mark.y * metres);
-  vec4 clip = projection * vec4(centre, 1.0);
+  vec3 center = (view * vec4(mix(gl_in[0].gl_Position.xyz, anchor.xyz, anchor.w), 1.0)).xyz;
+  float meters = pixel_at(-center.z);  // of a pixel
+  if (meters <= 0.0) return;
+  float r = max(radius, mark.y * meters);
+  vec4 clip = projection * vec4(center, 1.0);
   // In front of the particle's ball.
-  vec4 before = projection * vec4(centre * (1.0 - min(1.5 * r / length(centre), 0.5)), 1.0);
+  vec4 before = projection * vec4(center * (1.0 - min(1.5 * r / length(center), 0.5)), 1.0);
   for (int corner = 0; corner < 4; ++corner) {
-    at = (1.0 + metres / r) * vec2((corner & 1) * 2 - 1, (corner >> 1) * 2 - 1);
-    pixel = metres / r;
+    at = (1.0 + meters / r) * vec2((corner & 1) * 2 - 1, (corner >> 1) * 2 - 1);
+    pixel = meters / r;
     gl_Position = vec4(clip.xy + r * vec2(projection[0][0], projection[1][1]) * at, before.z / before.w * clip.w, clip.w);
     EmitVertex();
   }

@@ -1,4 +1,4 @@
-// Vertices of meshes that follow the particles of a body: where they are, and what colours show there. Each is in a cell of
+// Vertices of meshes that follow the particles of a body: where they are, and what colors show there. Each is in a cell of
 // the body, or up to half a cell outside, and moves as the cell's corners do, trilinearly (src/model/skin.h).
 #include "render/layout.glsl"
 #include "compute/dispatch.glsl"

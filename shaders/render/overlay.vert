@@ -2,7 +2,7 @@
 #include "render/layout.glsl"
 
 layout(location = 0) in vec4 place;   // x, y [pixels]; u, v
-layout(location = 1) in vec4 tint;    // linear colour, alpha
+layout(location = 1) in vec4 tint;    // linear color, alpha
 layout(location = 2) in vec4 shape;   // what to fill with (overlay.frag), then its parameters
 out vec2 uv;
 out vec4 fill;

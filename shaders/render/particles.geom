@@ -9,7 +9,7 @@ layout(location = LOCATION_RADIUS) uniform float radius;
 in float vertex_shown[];
 in float vertex_pinned[];
 out vec2 on_disc;
-out vec3 centre;
+out vec3 center;
 flat out float shown;
 flat out float pinned;
 flat out float size;
@@ -25,7 +25,7 @@ void main() {
   vec3 up = cross(right, forward);
   for (int corner = 0; corner < 4; ++corner) {
     on_disc = 1.15 * vec2((corner & 1) * 2 - 1, (corner >> 1) * 2 - 1);
-    centre = c;
+    center = c;
     shown = vertex_shown[0];
     pinned = vertex_pinned[0];
     size = r;

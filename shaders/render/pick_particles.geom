@@ -7,7 +7,7 @@ layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
 layout(location = LOCATION_RADIUS) uniform float radius;
 out vec2 on_disc;
-flat out vec3 centre;
+flat out vec3 center;
 flat out float size;
 
 const float least = 3.0;  // radius [pixels]
@@ -23,7 +23,7 @@ void main() {
   if (clip.w <= 0.0 || any(greaterThan(abs(clip.xy), vec2(clip.w) + reach))) return;
   for (int corner = 0; corner < 4; ++corner) {
     on_disc = vec2((corner & 1) * 2 - 1, (corner >> 1) * 2 - 1);
-    centre = at.xyz;
+    center = at.xyz;
     size = r;
     gl_Position = vec4(clip.xy + reach * on_disc, clip.zw);
     gl_PrimitiveID = gl_PrimitiveIDIn;

@@ -1,4 +1,4 @@
-// What colours show of each particle: its speed, the mean strain of its springs, the net force they exert on it, or its
+// What colors show of each particle: its speed, the mean strain of its springs, the net force they exert on it, or its
 // half of their energy; and the extremes of it over bodies and balls, and over springs.
 #define ASPIC_LATTICES  // a model without any has none in the table
 #define ASPIC_LISTED
@@ -31,13 +31,13 @@ void show(uint i, float value) {
 
 void main() {
   uint i = item_index();
-  if (colour_mode == COLOUR_SPEED && i < ball_count && balls[first_ball + i].velocity.w != 0.0) {
+  if (color_mode == COLOR_SPEED && i < ball_count && balls[first_ball + i].velocity.w != 0.0) {
     float speed = length(balls[first_ball + i].velocity.xyz);
     widen(EXTREMES_BODIES, speed, speed);
   }
   if (i >= particle_count) return;
   Particle p = particles[i];
-  if (colour_mode == COLOUR_SPEED) {
+  if (color_mode == COLOR_SPEED) {
     show(i, length(p.velocity.xyz));
     return;
   }
@@ -61,5 +61,5 @@ void main() {
   }
   if (springs > 0u) widen(EXTREMES_SPRINGS, low, high);
   float mean = sum / float(max(springs, 1u));
-  show(i, colour_mode == COLOUR_FORCE ? length(force) : colour_mode == COLOUR_ENERGY ? 0.5 * sum : mean);
+  show(i, color_mode == COLOR_FORCE ? length(force) : color_mode == COLOR_ENERGY ? 0.5 * sum : mean);
 }

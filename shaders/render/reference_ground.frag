@@ -1,4 +1,4 @@
-// A ground that is drawn only, half transparent: lines a metre apart, stronger every five, and the shadows that fall on
+// A ground that is drawn only, half transparent: lines a meter apart, stronger every five, and the shadows that fall on
 // it. It is drawn before bodies and over them, so that what lies below is seen through it.
 #include "render/frame.glsl"
 #include "render/shadow.glsl"
@@ -6,7 +6,7 @@
 layout(location = LOCATION_PLANE_POINT) uniform vec4 plane_point;
 in vec3 world;
 in vec3 local;
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 // Lines every `step_size` [m], as wide as a pixel or `width` [m]; none where they crowd.
 float lines(float step_size, float width) {
@@ -25,5 +25,5 @@ void main() {
   float line = max(0.55 * lines(1.0, 0.02), 0.85 * lines(5.0, 0.05));
   vec3 light = mix(vec3(0.50, 0.54, 0.58), vec3(0.16, 0.22, 0.30), line) * (0.25 + 0.75 * sunny);
   float cover = mix(0.22 + 0.40 * (1.0 - sunny), 0.60, line);
-  colour = vec4(light, cover * near);
+  color = vec4(light, cover * near);
 }

@@ -1,4 +1,4 @@
-// One triangle over the complete picture.
+// One triangle over the complete image.
 out vec2 on_screen;
 
 void main() {

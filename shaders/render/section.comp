@@ -1,5 +1,5 @@
 // The tetrahedra of a lattice's cells that the section's plane crosses, as indices for a draw. Every cell is divided in the
-// same way, along its diagonal from the lowest corner to the highest (Freudenthal, 1942; Kuhn, 1960): so neighbours agree
+// same way, along its diagonal from the lowest corner to the highest (Freudenthal, 1942; Kuhn, 1960): so neighbors agree
 // on the faces they share, and with the triangles of the skin. With LISTED_CELLS the lattice has empty cells, and the
 // corners of its full ones are in memory.
 #include "render/layout.glsl"

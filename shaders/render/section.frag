@@ -1,13 +1,13 @@
-// The inside of a body where it is cut: its own colour in the light that falls there, or the scale's as the legend shows it;
+// The inside of a body where it is cut: its own color in the light that falls there, or the scale's as the legend shows it;
 // thin lines are the faces of the cells.
 #include "render/frame.glsl"
 
-layout(binding = UNIT_COLOUR_MAP) uniform sampler2D colour_map;
-layout(location = LOCATION_BASE_COLOUR) uniform vec4 base_colour;
+layout(binding = UNIT_COLOR_MAP) uniform sampler2D color_map;
+layout(location = LOCATION_BASE_COLOR) uniform vec4 base_color;
 in vec3 world;
 in vec3 place;
 in float shown;
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 // Lines where a coordinate is an integer, a pixel wide; none where they crowd, or where the plane runs along a face.
 float lines(float coordinate) {
@@ -19,15 +19,15 @@ float lines(float coordinate) {
 void main() {
   vec3 light;
   if (section.z > 0.0) {
-    // Springs are drawn before it: a quiet ground for their colours.
-    light = colour_mode >= COLOUR_STRAIN ? vec3(0.30) : 0.55 * mix(base_colour.rgb, vec3(0.2), 0.35);
-  } else if (colour_mode >= COLOUR_STRAIN) {
-    light = textureLod(colour_map, vec2(clamp(shown, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5), 0.0).rgb;
+    // Springs are drawn before it: a quiet ground for their colors.
+    light = color_mode >= COLOR_STRAIN ? vec3(0.30) : 0.55 * mix(base_color.rgb, vec3(0.2), 0.35);
+  } else if (color_mode >= COLOR_STRAIN) {
+    light = textureLod(color_map, vec2(clamp(shown, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5), 0.0).rgb;
   } else {
     vec3 n = gl_FrontFacing ? cut.xyz : -cut.xyz;
     float wrapped = clamp((dot(n, sun.xyz) + 0.5) / 1.5, 0.0, 1.0);
-    light = to_display(base_colour.rgb * (0.40 * sun_light * wrapped + 0.62 * ambient(n)));
+    light = to_display(base_color.rgb * (0.40 * sun_light * wrapped + 0.62 * ambient(n)));
   }
   float line = max(max(lines(place.x), lines(place.y)), lines(place.z));
-  colour = vec4(mix(light, 0.35 * light, 0.7 * line * (1.0 - section.z)), 1.0);
+  color = vec4(mix(light, 0.35 * light, 0.7 * line * (1.0 - section.z)), 1.0);
 }

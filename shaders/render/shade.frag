@@ -1,5 +1,5 @@
-// What one light's maps keep from a plane, for an image of half the picture's size: it is soft, and dear. The whole plane
-// is drawn, also where bodies hide it or a shape cuts it, so nothing in the image has an edge that the picture has not:
+// What one light's maps keep from a plane, for an image of half the image's size: it is soft, and dear. The whole plane
+// is drawn, also where bodies hide it or a shape cuts it, so nothing in the image has an edge that the image has not:
 // it can be magnified linearly. SHADED_LIGHT: which light.
 #include "render/frame.glsl"
 #include "render/shadow.glsl"

@@ -1,9 +1,9 @@
-// ClosestPoint lines: from the eye, or all parallel in an orthographic picture, whose eye is far away.
+// ClosestPoint lines: from the eye, or all parallel in an orthographic image, whose eye is far away.
 
 // Unit, from a point of the world towards the eye.
 vec3 to_eye(vec3 position) { return normalize(viewer.xyz - viewer.w * position); }
 
-// From the eye to a point of the world; in an orthographic picture along the view alone.
+// From the eye to a point of the world; in an orthographic image along the view alone.
 vec3 way_from_eye(vec3 position) {
   vec3 way = position - eye.xyz;
   return viewer.w > 0.0 ? way : dot(way, viewer.xyz) * viewer.xyz;

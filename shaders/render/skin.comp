@@ -1,4 +1,4 @@
-// The vertices of the bodies' surfaces: where they are, what colours show there, and their normals. A normal is the sum
+// The vertices of the bodies' surfaces: where they are, what colors show there, and their normals. A normal is the sum
 // over the quads at the vertex of the cross product of the two edges there: over all of them where the patches of a
 // surface run into each other smoothly, over those of one patch at an edge.
 #include "render/layout.glsl"

@@ -5,7 +5,7 @@
 // The covered share in one level of a map through a cubic B-spline: four bilinear reads at the places that give sixteen
 // texels their weights.
 float smooth_level(sampler2D map, vec2 uv, float level) {
-  // Not textureSize() of the level: where neighbours' levels differ, llvmpipe answers all of them for one.
+  // Not textureSize() of the level: where neighbors' levels differ, llvmpipe answers all of them for one.
   vec2 size = vec2(textureSize(map, 0)) * exp2(-level);
   vec2 p = uv * size - 0.5;
   vec2 f = fract(p);

@@ -43,7 +43,7 @@ void main() {
     vec3 side = cross(normalize(b - a), towards_eye);
     side = dot(side, side) > 0.0 ? normalize(side) : vec3(1.0, 0.0, 0.0);
     sideways = side;
-    float value = colour_mode == COLOUR_SPEED ? end_quantity[first ? 0 : 1] : own;
+    float value = color_mode == COLOR_SPEED ? end_quantity[first ? 0 : 1] : own;
     shown = (value - quantity_range.x) * quantity_range.y;
     float pixel = pixel_at(-end.z);
     float half_width = radius / pixel;

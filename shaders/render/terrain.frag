@@ -24,7 +24,7 @@ layout(location = LOCATION_PLANE_NORMAL) uniform vec4 plane_normal;
 #endif
 in vec3 world;
 in vec3 local;
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 const float texture_size = 4.0;  // one repeat of the ground's texture [m]
 
@@ -59,8 +59,8 @@ void main() {
   vec3 off = (world - plane_point.xyz) / plane_point.w;
   float haze = smoothstep(0.0025, 0.50, dot(off, off));
   light = mix(light, landscape(-v), 1.0 - (1.0 - haze) * (1.0 - haze));
-  colour = vec4(to_display(light), from_behind ? 0.3 : 1.0);
+  color = vec4(to_display(light), from_behind ? 0.3 : 1.0);
 #else
-  colour = vec4(to_display(light), 1.0);
+  color = vec4(to_display(light), 1.0);
 #endif
 }

@@ -25,8 +25,8 @@ void main() {
   vec3 along = cross(n, across);
 #ifdef SHADOWED_PLANE
   mat3 to_light = mat3(lights[light]);
-  vec4 centre = light_boxes[light].centre;
-  vec3 start = (centre.xyz + vec3(centre.w * position.xy, 0.0)) * to_light;
+  vec4 center = light_boxes[light].center;
+  vec3 start = (center.xyz + vec3(center.w * position.xy, 0.0)) * to_light;
   vec3 towards_light = vec3(0.0, 0.0, -1.0) * to_light;
   float slant = dot(n, towards_light);
   // A light that only grazes the plane, or comes from behind it, throws no shadow worth the name.

@@ -1,4 +1,4 @@
-// Bowl, src/model/shapes/bowl.h in GLSL. geometry: (centre, radius).
+// Bowl, src/model/shapes/bowl.h in GLSL. geometry: (center, radius).
 float bowl_distance(uint t, vec3 x) {
   precise vec3 e = x - terrains[t].geometry[0].xyz;
   precise float d = terrains[t].geometry[0].w - norm3(e);

@@ -1,4 +1,4 @@
-// Plane with a hole, src/model/shapes/plane_with_hole.h in GLSL. geometry: (point, radius), normal, centre.
+// Plane with a hole, src/model/shapes/plane_with_hole.h in GLSL. geometry: (point, radius), normal, center.
 float plane_with_hole_distance(uint t, vec3 x) {
   precise vec3 from_point = x - terrains[t].geometry[0].xyz;
   precise vec3 e = x - terrains[t].geometry[2].xyz;

@@ -1,4 +1,4 @@
-// Sphere, src/model/shapes/sphere.h in GLSL. geometry: (centre, radius).
+// Sphere, src/model/shapes/sphere.h in GLSL. geometry: (center, radius).
 float sphere_distance(uint t, vec3 x) {
   precise vec3 e = x - terrains[t].geometry[0].xyz;
   precise float d = norm3(e) - terrains[t].geometry[0].w;

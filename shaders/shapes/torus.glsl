@@ -1,24 +1,24 @@
-// Torus, src/model/shapes/torus.h in GLSL. geometry: (centre, major radius), (axis, minor radius).
+// Torus, src/model/shapes/torus.h in GLSL. geometry: (center, major radius), (axis, minor radius).
 float torus_distance(uint t, vec3 x) {
-  precise vec4 centre = terrains[t].geometry[0];
+  precise vec4 center = terrains[t].geometry[0];
   precise vec4 axis = terrains[t].geometry[1];
-  precise vec3 e = x - centre.xyz;
+  precise vec3 e = x - center.xyz;
   precise float along = dot3(e, axis.xyz);
   precise vec3 across = e - along * axis.xyz;
-  precise float off = norm3(across) - centre.w;
+  precise float off = norm3(across) - center.w;
   precise float away_2 = off * off + along * along;
   precise float d = exact_sqrt(away_2) - axis.w;
   return d;
 }
 
 vec4 torus_gap(uint t, vec3 x) {
-  precise vec4 centre = terrains[t].geometry[0];
+  precise vec4 center = terrains[t].geometry[0];
   precise vec4 axis = terrains[t].geometry[1];
-  precise vec3 e = x - centre.xyz;
+  precise vec3 e = x - center.xyz;
   precise float along = dot3(e, axis.xyz);
   precise vec3 across = e - along * axis.xyz;
   precise float L = norm3(across);
-  precise float off = L - centre.w;
+  precise float off = L - center.w;
   precise float away_2 = off * off + along * along;
   precise float away = exact_sqrt(away_2);
   precise float d = away - axis.w;

@@ -1,4 +1,4 @@
-// What compute and drawing share: bindings, bounds of loops, and the structs of the buffers that solvers fill and pictures
+// What compute and drawing share: bindings, bounds of loops, and the structs of the buffers that solvers fill and images
 // show. Read by GLSL and by C++ (src/device/layout.h).
 #ifndef SHARED_LAYOUT
 #define SHARED_LAYOUT
@@ -9,7 +9,7 @@
 #define BINDING_OUT_STATE 2     // Particle[]: the next stage's state, or the step's end
 #define BINDING_STAGE_SUMS 3    // Particle[]: weighted sums of the stages' slopes so far
 #define BINDING_INCIDENT_START 4  // uint[slices + 1]: where the words of each slice of particles begin
-#define BINDING_INCIDENT 5      // uint[]: per-spring: spring and side; else neighbour and class
+#define BINDING_INCIDENT 5      // uint[]: per-spring: spring and side; else neighbor and class
 #define BINDING_CONTROL 6       // Control
 #define BINDING_CELLS 7         // uint[], in the kernel of cells only: src/model/cell_blocks.h
 #define BINDING_SPRING_FORCES 7 // vec4[springs]: force on end a [N], signed spring strength s [N]
@@ -38,23 +38,23 @@
 #define BINDING_CANDIDATE_GROUPS 4  // CandidateGroup[]
 #define BINDING_CONTACT_WORDS 5       // uint[]: lists of triangles and of candidate groups
 #define BINDING_CONTACT_RECORDS 7     // ContactRecord[CONTACT_RECORDS · candidate groups]
-// Of the kernels that prepare a picture; springs and balls as above.
+// Of the kernels that prepare an image; springs and balls as above.
 #define BINDING_PARTICLES 0   // Particle[]
 #define BINDING_FAN_START 1   // uint[surface vertices + 1]: where each vertex's fan begins
-#define BINDING_FAN 2         // uvec2[]: next and previous neighbour along each quad at the vertex
+#define BINDING_FAN 2         // uvec2[]: next and previous neighbor along each quad at the vertex
 #define BINDING_FAN_VERTEX 3  // uint[surface vertices]: the particle
 #define BINDING_SKIN 4        // SkinVertex[surface vertices]
 #define BINDING_FAN_OWN 5     // uint[surface vertices]: where the quads of its own patch end
 #define BINDING_BOUNDS 5      // Bounds[LIGHTS]
 #define BINDING_QUANTITY 6    // float[particles]
 #define BINDING_LIGHT_BOXES_OUT 7  // LightBox[LIGHTS]
-#define BINDING_EXTREMES 7    // uint[EXTREMES]: of what colours show
+#define BINDING_EXTREMES 7    // uint[EXTREMES]: of what colors show
 #define BINDING_SPRING_CLASSES 3   // SpringClass[]
 #define BINDING_SECTION 2     // Section, then uvec4[]: tetrahedra that a cut crosses
 #define BINDING_SECTION_CELLS 1  // uint[8 · cells]: corners of the full cells of a lattice
 #define BINDING_TURNS 1       // vec4[balls]: unit quaternions, from a ball's own frame to the world
 
-// Uniform blocks of the solvers' kernels, and of pictures.
+// Uniform blocks of the solvers' kernels, and of images.
 #define BINDING_SIMULATION 0
 #define BINDING_PULLS 1
 #define BINDING_POSES 2
@@ -106,7 +106,7 @@ struct SpringClass {
 };
 
 // A direction in which particles of a lattice have a spring (LatticeDirection in src/model/lattice.h), in one word, since
-// software rasterisers read words one by one: di + 2, dj + 2 and dk + 2 in three bits each, then the class's number.
+// software rasterizers read words one by one: di + 2, dj + 2 and dk + 2 in three bits each, then the class's number.
 struct Direction {
   uint word;
   uint direction_padding0, direction_padding1, direction_padding2;

@@ -10,7 +10,7 @@
 namespace aspic {
 namespace {
 
-/// Numbers a float's neighbours consecutively: +0 is 0, −0 is −1. Unsigned, so that distances never overflow.
+/// Numbers a float's neighbors consecutively: +0 is 0, −0 is −1. Unsigned, so that distances never overflow.
 template <class Bits>
 std::uint64_t distance(Bits a, Bits b) {
   constexpr Bits sign = Bits{1} << (8 * sizeof(Bits) - 1);

@@ -47,8 +47,8 @@ void Course::take(const State& state) {
   };
   for (std::size_t i = 0; i < state.position.size(); ++i) add(state.position[i], model_.mass[i]);
   for (std::size_t b = 0; b < model_.balls.size(); ++b) add(state.ball_position[b], model_.balls[b].mass);
-  const Vec3 centre = mass > 0.0 ? moment / mass : Vec3{};
-  sample.height = dot(centre, up_);
+  const Vec3 center = mass > 0.0 ? moment / mass : Vec3{};
+  sample.height = dot(center, up_);
   sample.lowest = mass > 0.0 ? lowest : 0.0;
   if (!model_.bodies.empty()) {
     const Body& body = model_.bodies.front();
@@ -62,10 +62,10 @@ void Course::take(const State& state) {
   }
   if (!contact_time_ && contacts(state)) {
     contact_time_ = sample.time;
-    contact_centre_ = centre;
+    contact_center_ = center;
   }
   if (contact_time_) {
-    const Vec3 way = centre - contact_centre_;
+    const Vec3 way = center - contact_center_;
     sample.slide = length(way - dot(way, up_) * up_);
   }
   samples_.push_back(sample);

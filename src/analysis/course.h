@@ -1,5 +1,5 @@
 #pragma once
-// The course of a run in a few figures: where the centre of mass is, how far a body is squashed, when it
+// The course of a run in a few figures: where the center of mass is, how far a body is squashed, when it
 // rests, how far it slides.
 #include <cstdint>
 #include <optional>
@@ -14,10 +14,10 @@ namespace aspic {
 /// A moment of a run. Up is against gravity, or y without gravity.
 struct CourseSample {
   double time = 0.0;    ///< step · h [s]
-  double height = 0.0;  ///< of the centre of mass [m]
-  double lowest = 0.0;  ///< of all particles and balls' centres [m]
+  double height = 0.0;  ///< of the center of mass [m]
+  double lowest = 0.0;  ///< of all particles and balls' centers [m]
   double extent = 0.0;  ///< of the first body, from its lowest to its highest particle [m]; 0 without bodies
-  double slide = 0.0;   ///< what the centre of mass has moved across gravity since the first contact [m]
+  double slide = 0.0;   ///< what the center of mass has moved across gravity since the first contact [m]
   Measures measures;
 };
 
@@ -51,7 +51,7 @@ class Course {
   Vec3 up_;
   std::vector<CourseSample> samples_;
   std::optional<double> contact_time_;
-  Vec3 contact_centre_;  // of mass
+  Vec3 contact_center_;  // of mass
 };
 
 /// Steps between samples that are about `interval` [s] apart, at least 1.

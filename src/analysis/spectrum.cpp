@@ -66,7 +66,7 @@ bool WorkBudget::spend(std::uint64_t evaluations) {
   return left_ > 0;
 }
 
-LinearisedBody::LinearisedBody(const Model& model, std::uint32_t first_particle, std::uint32_t particle_count,
+LinearizedBody::LinearizedBody(const Model& model, std::uint32_t first_particle, std::uint32_t particle_count,
                                bool springs) {
   root_inverse_mass_.reserve(particle_count);
   for (std::uint32_t i = 0; i < particle_count; ++i) {
@@ -104,7 +104,7 @@ LinearisedBody::LinearisedBody(const Model& model, std::uint32_t first_particle,
   }
 }
 
-void LinearisedBody::join(const LinearisedBody& other) {
+void LinearizedBody::join(const LinearizedBody& other) {
   if (other.spring_count_ == 0) return;
   smallest_ratio_ =
       spring_count_ == 0 ? other.smallest_ratio_ : std::min(smallest_ratio_, other.smallest_ratio_);
@@ -115,17 +115,17 @@ void LinearisedBody::join(const LinearisedBody& other) {
   if (!(other.damping_bound_ <= damping_bound_)) damping_bound_ = other.damping_bound_;
 }
 
-std::size_t LinearisedBody::free_dof() const {
+std::size_t LinearizedBody::free_dof() const {
   return 3 * static_cast<std::size_t>(std::count_if(root_inverse_mass_.begin(), root_inverse_mass_.end(),
                                                     [](double root) { return root > 0.0; }));
 }
 
-bool LinearisedBody::proportional() const {
+bool LinearizedBody::proportional() const {
   // The ratios come from products such as 2ζ√(km/2): a few roundings apart is the same.
   return largest_ratio_ == smallest_ratio_ || largest_ratio_ <= smallest_ratio_ * (1.0 + 1e-12);
 }
 
-void LinearisedBody::multiply(double stiffness_factor, double damping_factor, const double* in,
+void LinearizedBody::multiply(double stiffness_factor, double damping_factor, const double* in,
                               double* out) const {
   std::fill_n(out, 3 * root_inverse_mass_.size(), 0.0);
   for (const LinearSpring& s : springs_) {
@@ -146,7 +146,7 @@ void LinearisedBody::multiply(double stiffness_factor, double damping_factor, co
   }
 }
 
-std::vector<Vec3> LinearisedBody::stiffest_mode(double stiffness_factor, double damping_factor,
+std::vector<Vec3> LinearizedBody::stiffest_mode(double stiffness_factor, double damping_factor,
                                                 int rounds) const {
   const std::size_t particles = root_inverse_mass_.size();
   DynamicVector mode = start_vector(3 * particles), image(mode.size());
@@ -167,7 +167,7 @@ std::vector<Vec3> LinearisedBody::stiffest_mode(double stiffness_factor, double 
   return displacement;
 }
 
-LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, double damping_factor,
+LargestEigenvalue LinearizedBody::largest_eigenvalue(double stiffness_factor, double damping_factor,
                                                      double tolerance, int max_iterations,
                                                      WorkBudget& work) const {
   if (spring_count_ == 0) return {};
@@ -212,7 +212,7 @@ LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, do
   return best;
 }
 
-std::vector<std::complex<double>> LinearisedBody::eigenvalues() const {
+std::vector<std::complex<double>> LinearizedBody::eigenvalues() const {
   std::vector<Eigen::Index> row(root_inverse_mass_.size(), -1);
   Eigen::Index free = 0;
   for (std::size_t i = 0; i < root_inverse_mass_.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// The linearised springs of one body at rest: M^(-1/2) K M^(-1/2) and M^(-1/2) C M^(-1/2), matrix-free, and
+// The linearized springs of one body at rest: M^(-1/2) K M^(-1/2) and M^(-1/2) C M^(-1/2), matrix-free, and
 // their largest eigenvalues.
 #include <complex>
 #include <cstdint>
@@ -37,21 +37,21 @@ struct LargestEigenvalue {
   bool converged = true;
 };
 
-/// A body's springs as Σ nnᵀ terms between its free particles. Springs are linearised at the start positions
+/// A body's springs as Σ nnᵀ terms between its free particles. Springs are linearized at the start positions
 /// and rest lengths; a cord counts as a stretched spring; a pinned particle does not move; terrain takes no
 /// part.
-class LinearisedBody {
+class LinearizedBody {
  public:
   /// `springs`: false keeps bounds and ratios only, in a pass over the model's springs and no memory for
   /// them.
-  LinearisedBody(const Model& model, std::uint32_t first_particle, std::uint32_t particle_count,
+  LinearizedBody(const Model& model, std::uint32_t first_particle, std::uint32_t particle_count,
                  bool springs = true);
 
   /// Nothing at all: the beginning of a join.
-  LinearisedBody() = default;
+  LinearizedBody() = default;
 
   /// Takes another body's springs into the bounds and ratios. Neither keeps springs.
-  void join(const LinearisedBody& other);
+  void join(const LinearizedBody& other);
   /// Largest share by which actuators shorten a spring, 1 − r/r₀ at its shortest; 0 without any.
   double shortening() const { return shortening_; }
   bool springs_kept() const { return !springs_.empty(); }

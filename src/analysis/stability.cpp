@@ -33,10 +33,10 @@ constexpr std::uint64_t work_of_mode = 500;
 class BodyAnalysis {
  public:
   /// `damping` γ [1/s] adds to that of every mode.
-  BodyAnalysis(LinearisedBody body, double damping, const Effort& effort, WorkBudget& work)
+  BodyAnalysis(LinearizedBody body, double damping, const Effort& effort, WorkBudget& work)
       : body_(std::move(body)), damping_(damping), effort_(effort), work_(work) {}
 
-  const LinearisedBody& body() const { return body_; }
+  const LinearizedBody& body() const { return body_; }
   double damping() const { return damping_; }
   WorkBudget& work() { return work_; }
   /// Whether all eigenvalues can be afforded: about 10·(2n)³ operations, twenty of which make a spring
@@ -67,7 +67,7 @@ class BodyAnalysis {
   }
 
  private:
-  LinearisedBody body_;
+  LinearizedBody body_;
   double damping_;
   Effort effort_;
   WorkBudget& work_;
@@ -95,7 +95,7 @@ void scan_unit_interval(int steps, const F& f) {
 }
 
 StabilityLimit proportional_limit(BodyAnalysis& analysis, Integrator integrator) {
-  const LinearisedBody& body = analysis.body();
+  const LinearizedBody& body = analysis.body();
   const bool by_damping = body.smallest_ratio() == infinity;  // k = 0 everywhere
   const LargestEigenvalue top = by_damping ? analysis.gamma_max() : analysis.kappa_max();
   const auto at = [&](double share) {
@@ -187,13 +187,13 @@ StabilityLimit bounded_limit(const ModeBounds& body, WorkBudget& work, Integrato
 }
 
 ModeBounds bounds_of(BodyAnalysis& analysis) {
-  const LinearisedBody& body = analysis.body();
+  const LinearizedBody& body = analysis.body();
   return {analysis.kappa_max().value, analysis.gamma_max().value, body.smallest_ratio(), body.largest_ratio(),
           analysis.damping()};
 }
 
 StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
-  const LinearisedBody& body = analysis.body();
+  const LinearizedBody& body = analysis.body();
   const IntegratorRow& row = row_of(integrator);
   if (row.traits.stable_at_any_step) return {infinity, true};
   if (!body.has_springs()) return of_mode(integrator, 0.0, analysis.damping());
@@ -291,10 +291,10 @@ std::vector<StabilityLimit> limits_of_bodies(const Model& model, std::span<const
   std::vector<StabilityLimit> limits(integrators.size(), StabilityLimit{infinity, true});
   const Effort& means = effort == StabilityEffort::quick ? quick : thorough;
   WorkBudget work(means.evaluations, watch);
-  LinearisedBody rest;
+  LinearizedBody rest;
   Added rest_added;
   std::vector<std::pair<const Body*, Added>> looked_at;
-  const auto take = [&](LinearisedBody body, const Added& with) {
+  const auto take = [&](LinearizedBody body, const Added& with) {
     BodyAnalysis analysis(std::move(body), physics::BodyForce<double>(model).damping(), means, work);
     for (std::size_t i = 0; i < integrators.size(); ++i)
       limits[i] = smaller(limits[i], limit(analysis, with, integrators[i]));
@@ -309,10 +309,10 @@ std::vector<StabilityLimit> limits_of_bodies(const Model& model, std::span<const
       if (std::ranges::any_of(looked_at, known)) continue;
       looked_at.emplace_back(&*body, with);
     }
-    LinearisedBody light(model, first, count, false);
+    LinearizedBody light(model, first, count, false);
     // Fewer iterations than twenty would say little, and they take memory.
     if (!work.spent() && 20 * light.spring_count() <= work.left()) {
-      take(LinearisedBody(model, first, count), with);
+      take(LinearizedBody(model, first, count), with);
     } else {
       rest.join(light);
       rest_added.raise(with);
@@ -387,7 +387,7 @@ double largest_stiffness_eigenvalue(const Model& model) {
   double largest = 0.0;
   WorkBudget work(std::numeric_limits<std::uint64_t>::max());
   for (const auto& [first, count] : runs_of(model)) {
-    const LinearisedBody body(model, first, count);
+    const LinearizedBody body(model, first, count);
     largest = std::max(
         largest, body.largest_eigenvalue(1.0, 0.0, thorough.tolerance, thorough.iterations, work).value);
   }

@@ -1,7 +1,7 @@
 #pragma once
 // What else there is to say of the largest stable time step (docs/physics.md, section 3).
 //
-// stability_limit() linearises springs at rest, actuated ones with their shortest rest length, by a bound.
+// stability_limit() linearizes springs at rest, actuated ones with their shortest rest length, by a bound.
 // Where all springs of a body have one ratio of damping to stiffness, its modes are those of one operator
 // with eigenvalues α in (0, α_max], each giving λ² + (αc/m)λ + αk/m = 0: the limit is the minimum over that
 // interval, exact where α_max itself decides. Otherwise symplectic Euler's limit is the h with λ_max(h²K +

@@ -60,17 +60,17 @@ ProbeStart probe_start(const Model& model) {
     return start;
   }
   const Body& body = model.bodies.front();
-  Vec3 centre;
+  Vec3 center;
   for (std::uint32_t i = 0; i < body.particle_count; ++i)
-    centre = centre + start.rest.position[body.first_particle + i];
-  centre = centre / static_cast<double>(body.particle_count);
-  for (Vec3& x : start.rest.position) x = x - centre;
+    center = center + start.rest.position[body.first_particle + i];
+  center = center / static_cast<double>(body.particle_count);
+  for (Vec3& x : start.rest.position) x = x - center;
 
   double shortest = std::numeric_limits<double>::infinity();
   for (std::uint32_t c = body.first_class; c < body.first_class + body.class_count; ++c)
     shortest = std::min(shortest, model.spring_classes[c].rest_length);
   const double size = strain * (std::isfinite(shortest) ? shortest : 1.0);
-  const LinearisedBody linear(model, body.first_particle, body.particle_count);
+  const LinearizedBody linear(model, body.first_particle, body.particle_count);
   constexpr int rounds = 300;
   const std::vector<Vec3> stiff = linear.stiffest_mode(1.0, 0.0, rounds);
   const std::vector<Vec3> damped =

@@ -1,6 +1,6 @@
 #pragma once
 // Stability as a solver shows it: whether small motions of a body alone in space grow from step to step.
-// analysis/stability.h has the answer of the linearised equations.
+// analysis/stability.h has the answer of the linearized equations.
 #include <functional>
 #include <memory>
 

@@ -50,12 +50,12 @@ App::App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Playback
       view(editor.scene().view.camera),
       scene(std::move(editor), simulation, view, messages),
       run(simulation, scene, messages),
-      picture(simulation, scene.scene(), view, options.full_quality),
+      image(simulation, scene.scene(), view, options.full_quality),
       hands(simulation, view, messages),
       comparison(simulation, scene.scene(), options.asked),
-      comparison_view(comparison, scene, view, picture, messages, options.asked),
-      film(simulation, scene.editor(), view, picture, comparison, comparison_view, messages),
-      pointer(simulation, view, picture, hands),
+      comparison_view(comparison, scene, view, image, messages, options.asked),
+      video(simulation, scene.editor(), view, image, comparison, comparison_view, messages),
+      pointer(simulation, view, image, hands),
       cells(scene) {
   hands.refusal = [this] { return comparison.hands_refused(); };
 }
@@ -111,20 +111,20 @@ void App::ask_where_to_save() {
 // ---- the context ----
 
 Status App::attach(gl::Context& context, double scale, WindowServices services) {
-  ASPIC_CHECK(picture.attach(context));
+  ASPIC_CHECK(image.attach(context));
   comparison_view.attach(context);
   ASPIC_TRY(gui_, Gui::create(scale, std::move(services), commands_, watcher_));
   return {};
 }
 
 Status App::release_context(const Error& why) {
-  for (const std::string& line : film.finish()) messages.error(line);
+  for (const std::string& line : video.finish()) messages.error(line);
   comparison_view.detach();
   ASPIC_CHECK(simulation.rebuild().leave_context(why));
   // What the solver said when it noticed first says more.
   if (!messages.any_error()) messages.error(why);
   pointer.forget();
-  picture.detach();
+  image.detach();
   gui_.reset();
   return {};
 }
@@ -141,7 +141,7 @@ void App::restore(const KeptState& kept, const std::vector<std::string>& overrid
   greeted_ = kept.greeted;
   simulation.pacer().set_pace(kept.pace);
   simulation.pacer().set_speed(kept.speed);
-  film.settings = {kept.film_format, kept.film_fps, kept.film_text, ""};
+  video.settings = {kept.video_format, kept.video_fps, kept.video_text, ""};
   view.kept = kept.cameras;
   const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
   if (std::ranges::none_of(overrides, sets_camera)) view.recall_camera(scene.editor().source());
@@ -163,9 +163,9 @@ KeptState App::kept_state() const {
   kept.layout = layout;
   kept.pace = simulation.pacer().pace();
   kept.speed = simulation.pacer().speed();
-  kept.film_format = film.settings.format;
-  kept.film_fps = film.settings.fps;
-  kept.film_text = film.settings.text;
+  kept.video_format = video.settings.format;
+  kept.video_fps = video.settings.fps;
+  kept.video_text = video.settings.text;
   kept.greeted = greeted_;
   kept.cameras = view.kept_with(scene.editor().source());
   return kept;
@@ -187,7 +187,7 @@ std::string App::title() const {
 
 bool App::idle() const {
   return !simulation.running() && !comparison.clock().others_run() && comparison.settled() &&
-         !comparison.busy() && !picture.refining() && !comparison_view.refining() &&
+         !comparison.busy() && !image.refining() && !comparison_view.refining() &&
          std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
          shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() &&
          !simulation.rebuild().changing() && !simulation.busy();
@@ -196,7 +196,7 @@ bool App::idle() const {
 bool App::asleep() const {
   constexpr double rest = 1.5;  // s, by when tooltips have come
   return idle() && !touched_ && std::min(still_for_, mouse_still_for_) > rest && !gui_->takes_keyboard() &&
-         !gui_->awake() && !film.recording() && film.completing() == 0 && !messages.fades();
+         !gui_->awake() && !video.recording() && video.completing() == 0 && !messages.fades();
 }
 
 bool App::doze(double dt) {
@@ -211,11 +211,11 @@ double App::wait(double since) const {
   constexpr double nap = 0.004;  // s
   if (idle()) return std::max(0.5 - since, 0.0);
   // Displays set the pace of hardware.
-  if (!picture.policy()) return 0.0;
+  if (!image.policy()) return 0.0;
   const bool nothing_new = !comparison.several() && simulation.busy() && !simulation.jobs().has_news() &&
                            !touched_ && !camera_moves_;
   const bool late = simulation.running() && simulation.pacer().late();
-  return std::clamp(picture.policy()->interval(nothing_new, late, frame_seconds_) - since, 0.0, nap);
+  return std::clamp(image.policy()->interval(nothing_new, late, frame_seconds_) - since, 0.0, nap);
 }
 
 // ---- events ----
@@ -233,7 +233,7 @@ void App::character(unsigned int code_point) {
 }
 
 /// To the text field that has the keyboard, else to the command they belong to; some wait for the next
-/// picture.
+/// image.
 void App::deliver_keys() {
   while (!keys_.empty() && gui_->ready_for(keys_.front())) {
     const KeyEvent event = keys_.front();
@@ -267,14 +267,14 @@ void App::mouse_button(int button, int action, int modifiers) {
   gui_->mouse_button(button, action);
   if (action != GLFW_RELEASE) return pointer.press(button, modifiers, gui_->takes_mouse());
   pointer.release(button);
-  // A stroke over cells is a gesture of its own, whose end the next picture sees.
+  // A stroke over cells is a gesture of its own, whose end the next image sees.
   if (button == GLFW_MOUSE_BUTTON_LEFT && !cells.pointed()) scene.end_gesture();
 }
 
 void App::cursor(double x, double y) {
   mouse_still_for_ = 0.0;
   touched_ = true;
-  // A mouse that only passes over leaves the picture as it is, in full resolution.
+  // A mouse that only passes over leaves the image as it is, in full resolution.
   if (pointer.drags()) still_for_ = 0.0;
   gui_->cursor(x, y);
   pointer.move(x, y);
@@ -294,25 +294,25 @@ void App::drop(const std::vector<std::string>& paths) {
     if (is_mesh(path)) add_mesh(scene, messages, path);
 }
 
-// ---- pictures ----
+// ---- images ----
 
 Status App::frame(const WindowSize& size, double dt) {
-  gl::Context& context = picture.context();
+  gl::Context& context = image.context();
   if (context.lost()) return context.lost_error();
   if (size.pixel_width < 1 || size.pixel_height < 1 || size.width < 1 || size.height < 1) return {};
   messages.update(dt);
   touched_ = false;
   camera_moves_ = view.camera.update(dt);
   scene.update(dt);
-  const double budget = picture.policy() ? FramePolicy::step_seconds : FramePolicy::hardware_step_seconds;
+  const double budget = image.policy() ? FramePolicy::step_seconds : FramePolicy::hardware_step_seconds;
   comparison_view.match_editor();
   comparison.lead();
-  film.lead();
+  video.lead();
   if (comparison.clock().runs()) messages.greeting_is_over();
   ASPIC_CHECK(simulation.update(dt, budget));
-  if (scene.finish_change()) picture.postponed = true;
+  if (scene.finish_change()) image.postponed = true;
   if (const auto message = simulation.take_message()) messages.error(*message);
-  film.update();
+  video.update();
   ASPIC_CHECK(comparison.follow(dt, budget));
   comparison_view.update();
   run.watch_divergence();
@@ -321,45 +321,45 @@ Status App::frame(const WindowSize& size, double dt) {
                      comparison.clock().others_run() || !comparison.settled();
   still_for_ = camera_moves_ || moves ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
-  const bool taken = shot_wanted_ == Shot::window || (shot_wanted_ == Shot::picture && comparison.several());
-  picture.at_rest = taken || std::min(still_for_, scene.unchanged_for()) > 0.25;
-  picture.at_once = taken;
+  const bool taken = shot_wanted_ == Shot::window || (shot_wanted_ == Shot::image && comparison.several());
+  image.at_rest = taken || std::min(still_for_, scene.unchanged_for()) > 0.25;
+  image.at_once = taken;
   const auto start = std::chrono::steady_clock::now();
-  const Status made = make_picture(size, dt);
+  const Status made = make_image(size, dt);
   frame_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return made;
 }
 
-/// Of several runs the picture is the window's view of all, with their names.
+/// Of several runs the image is the window's view of all, with their names.
 Status App::save_shot(Shot wanted, const WindowSize& size, const std::string& path) {
   if (wanted == Shot::window) return save_pixels(0, {size.pixel_width, size.pixel_height}, path);
-  if (!comparison.several()) return picture.save(path);
+  if (!comparison.several()) return image.save(path);
   const auto pixels = [&](double length) {
     return static_cast<int>(std::lround(length * view.pixels_per_unit));
   };
   const int left = pixels(view.whole.left), bottom = size.pixel_height - pixels(view.whole.bottom);
-  const PictureSize whole = {pixels(view.whole.right) - left,
-                             pixels(view.whole.bottom) - pixels(view.whole.top)};
+  const ImageSize whole = {pixels(view.whole.right) - left,
+                           pixels(view.whole.bottom) - pixels(view.whole.top)};
   return save_pixels(0, whole, path, left, bottom);
 }
 
-Status App::make_picture(const WindowSize& size, double dt) {
-  ASPIC_CHECK(picture.follow());
+Status App::make_image(const WindowSize& size, double dt) {
+  ASPIC_CHECK(image.follow());
   pointer.find_hovered();
   view.pixels_per_unit = size.pixels_per_unit();
-  picture.rate.count(dt);
+  image.rate.count(dt);
   gui_->set_text_size(layout.text_size);
   gui_->begin(size, dt);
   view.text_scale = gui_->scale();
-  draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, files,
+  draw_panels({*gui_, messages, simulation, view, scene, run, image, hands, video, pointer, layout, files,
                palette, comparison, comparison_view, closing, help_visible, cells, stability},
               size.width, size.height);
   if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
     view.frame_bodies(simulation.model(), simulation.snapshot());
-  comparison_view.share_colours();
-  ASPIC_CHECK(picture.show(size));
+  comparison_view.share_colors();
+  ASPIC_CHECK(image.show(size));
   ASPIC_CHECK(comparison_view.show(size));
-  if (const auto refusal = picture.take_refusal()) messages.error(*refusal);
+  if (const auto refusal = image.take_refusal()) messages.error(*refusal);
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();
   deliver_keys();

@@ -1,6 +1,6 @@
 #pragma once
-// The window's inside: puts its parts together, hands events to them and makes the pictures. Knows no window:
-// events come through EventReceiver, pictures go to the current context's framebuffer 0.
+// The window's inside: puts its parts together, hands events to them and makes the images. Knows no window:
+// events come through EventReceiver, images go to the current context's framebuffer 0.
 #include <deque>
 #include <memory>
 #include <string>
@@ -10,7 +10,6 @@
 #include "app/commands.h"
 #include "app/comparison_view.h"
 #include "app/file_dialog.h"
-#include "app/film.h"
 #include "app/gui.h"
 #include "app/hands.h"
 #include "app/kept_state.h"
@@ -19,7 +18,8 @@
 #include "app/pointer.h"
 #include "app/run_control.h"
 #include "app/scene_control.h"
-#include "app/scene_picture.h"
+#include "app/scene_image.h"
+#include "app/video.h"
 #include "app/view.h"
 #include "app/window.h"
 #include "playback/playback_session.h"
@@ -34,7 +34,7 @@ struct AppOptions {
   const BackendRow* backend = nullptr;  ///< null: what `auto` takes in the window's context
   BackendChoice asked = {};             ///< of backends that have it; its row does not matter
   KeptState kept = {};                  ///< how the window was last left
-  bool full_quality = false;            ///< on a software rasteriser too, however long pictures take
+  bool full_quality = false;            ///< on a software rasterizer too, however long images take
   WidgetWatcher* watcher = nullptr;     ///< sees the panels' widgets; must outlive the app
 };
 
@@ -54,23 +54,23 @@ class App final : public EventReceiver {
   void drop(const std::vector<std::string>& paths) override;
   void refresh() override { touch(); }
 
-  /// One picture, `dt` ≥ 0 after the last [s]. Error (no_device): the context was lost; another window can
+  /// One image, `dt` ≥ 0 after the last [s]. Error (no_device): the context was lost; another window can
   /// take the app on then (replace_window).
   Status frame(const WindowSize& size, double dt);
-  /// Releases all that the context holds, while it is still current: films are completed as far as they
+  /// Releases all that the context holds, while it is still current: videos are completed as far as they
   /// came, a run that needs the context continues on the processor from the last copy, and a message will
   /// say so.
   Status release_context(const Error& why);
   /// Continues in another context, current from now on, after release_context(). Errors as create().
   Status adopt_context(gl::Context& context, double scale, WindowServices services);
-  /// Nothing moves: the next picture would be the same but for events.
+  /// Nothing moves: the next image would be the same but for events.
   bool idle() const;
   /// The next frame would be identical: there is no need to draw it. Then doze() instead,
   /// `dt` ≥ 0 after the last call [s], which looks at the scene's file; true if there is something to show
   /// again.
   bool asleep() const;
   bool doze(double dt);
-  /// How long to wait for events before the next picture, `since` the last one [s]; 0: none, it is due.
+  /// How long to wait for events before the next image, `since` the last one [s]; 0: none, it is due.
   double wait(double since) const;
   std::string title() const;
   /// The window was asked to close. False if there are changes that would be lost: a page asks then, and a
@@ -94,11 +94,11 @@ class App final : public EventReceiver {
   View view;
   SceneControl scene;
   RunControl run;
-  ScenePicture picture;
+  SceneImage image;
   Hands hands;
   Comparison comparison;
   ComparisonView comparison_view;
-  Film film;
+  Video video;
   Pointer pointer;
   Layouts layout;
   FileDialog files;
@@ -121,8 +121,8 @@ class App final : public EventReceiver {
   void ask_for_mesh();
   void edit_hovered_cells();
   void ask_where_to_save();
-  Status make_picture(const WindowSize& size, double dt);
-  enum class Shot { none, picture, window };
+  Status make_image(const WindowSize& size, double dt);
+  enum class Shot { none, image, window };
   Status save_shot(Shot wanted, const WindowSize& size, const std::string& path);
   void touch() {
     still_for_ = 0.0;
@@ -136,7 +136,7 @@ class App final : public EventReceiver {
   /// Since something moved, and since the mouse did [s].
   double still_for_ = 0.0, mouse_still_for_ = 0.0;
   bool greeted_ = false;        // what the keys are was said
-  double frame_seconds_ = 0.0;  // the last picture with its panels
+  double frame_seconds_ = 0.0;  // the last image with its panels
   bool touched_ = false;        // by an event since then
 };
 

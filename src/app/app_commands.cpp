@@ -9,9 +9,9 @@ namespace aspic::app {
 std::vector<Command> App::make_commands() {
   constexpr int ctrl = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
   const auto step = [this] {
-    film.take();
+    video.take();
     run.single_step();
-    film.take();
+    video.take();
   };
   const auto step_back = [this] {
     // After the window's own run diverged, of those that went on.
@@ -30,7 +30,7 @@ std::vector<Command> App::make_commands() {
   };
   const auto throw_ball = [this] { hands.throw_ball(pointer.sight(gui_->takes_mouse())); };
   const auto frame_bodies = [this] {
-    if (messages.check(simulation.refresh_snapshot()) && messages.check(picture.follow()))
+    if (messages.check(simulation.refresh_snapshot()) && messages.check(image.follow()))
       view.frame_bodies(simulation.model(), simulation.snapshot());
   };
   // Off, and in turn what there is to see.
@@ -67,8 +67,8 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+drag", "pull the particle or ball under the mouse"},
       {"Ctrl+right click", "pin or free the particle"},
       {"", "Scenes"},
-      {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbour(-1); }},
-      {"]", "next scene", -1, 0, U']', [this] { scene.open_neighbour(1); }},
+      {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbor(-1); }},
+      {"]", "next scene", -1, 0, U']', [this] { scene.open_neighbor(1); }},
       {"Ctrl+L", "reload the scene", GLFW_KEY_L, ctrl, 0, [this] { scene.reload(); }},
       {"Ctrl+O", "open a scene, checkpoint or inputs", GLFW_KEY_O, ctrl, 0, [this] { ask_for_scene(); }},
       {"Ctrl+S", "save the scene", GLFW_KEY_S, ctrl, 0, [this] { ask_where_to_save(); }},
@@ -117,8 +117,8 @@ std::vector<Command> App::make_commands() {
        GLFW_KEY_KP_SUBTRACT, shift},
       {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { open_page(help_visible ? Page::none : Page::help); }},
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
-      {"Ctrl+R", "start or end a video", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
-      {"F12", "save the image", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::picture; }},
+      {"Ctrl+R", "start or end a video", GLFW_KEY_R, ctrl, 0, [this] { video.toggle(); }},
+      {"F12", "save the image", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::image; }},
       {"Shift+F12", "save the complete window", GLFW_KEY_F12, shift, 0,
        [this] { shot_wanted_ = Shot::window; }},
   };

@@ -139,7 +139,7 @@ void bodies_of(Gui& gui, SceneControl& scene, CellEditor& cells, Layouts& layout
   }
 }
 
-/// Which springs the picture shows: the words of view.draw, next to the springs' own values.
+/// Which springs the image shows: the words of view.draw, next to the springs' own values.
 void shown_springs(Gui& gui, SceneControl& scene) {
   const Parameter& p = *find_parameter("view.draw");
   auto words = std::get<std::vector<std::string>>(*p.get(scene.scene(), 0));

@@ -47,7 +47,7 @@ void CameraControl::orbit(double dx, double dy) {
 }
 
 Vec3 CameraControl::across(double dx, double dy, double fov) const {
-  // At the target's distance the view is this many metres high.
+  // At the target's distance the view is this many meters high.
   const double height = 2.0 * goal_.distance * std::tan(0.5 * radians(fov));
   const Vec3 right = {std::cos(goal_.azimuth), 0.0, -std::sin(goal_.azimuth)};
   const Vec3 up = {-std::sin(goal_.elevation) * std::sin(goal_.azimuth), std::cos(goal_.elevation),
@@ -86,11 +86,11 @@ void CameraControl::look_from(const Vec3& direction) {
   goal_.elevation = seen.elevation;
 }
 
-void CameraControl::frame(const Vec3& centre, double radius, double aspect) {
+void CameraControl::frame(const Vec3& center, double radius, double aspect) {
   goal_.exact.reset();
   const double half = 0.5 * radians(goal_.fov);
   const double narrow = aspect < 1.0 ? std::atan(aspect * std::tan(half)) : half;
-  goal_.target = centre;
+  goal_.target = center;
   goal_.distance = std::clamp(1.1 * std::max(radius, 10.0 * nearest) / std::sin(narrow), nearest, farthest);
 }
 
@@ -101,7 +101,7 @@ void CameraControl::change_projection() {
     if (orbit->exact) orbit->exact->projection = goal_.projection;
 }
 
-void CameraControl::centre(const Vec3& point) {
+void CameraControl::center(const Vec3& point) {
   goal_.exact.reset();
   goal_.target = point;
 }

@@ -23,9 +23,9 @@ class CameraControl {
   void reset();
   /// Turns to a sphere and backs off until it fits; direction and field of view stay. `aspect` is
   /// width/height of the view, > 0; a radius of 0 [m] is taken as a small one.
-  void frame(const Vec3& centre, double radius, double aspect);
+  void frame(const Vec3& center, double radius, double aspect);
   /// Turns to a point: the target comes to lie there, and the camera moves along with it.
-  void centre(const Vec3& point);
+  void center(const Vec3& point);
   /// Turns to where the eye sees the target along −direction, by the short way; target and distance stay. The
   /// length of `direction` does not matter; straight above is 89° up, with −z away from the eye.
   void look_from(const Vec3& direction);

@@ -57,7 +57,7 @@ class CellEditor {
   /// All that wait are dropped.
   void drop_waiting();
 
-  /// Once for each picture: the scene may have changed otherwise.
+  /// Once for each image: the scene may have changed otherwise.
   void follow();
   /// The layer is shown in the panels, with the mouse on a cell or none.
   void show(const std::optional<CellPlace>& pointed) {

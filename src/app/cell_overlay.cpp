@@ -1,4 +1,4 @@
-// Where the layer that is edited is in the picture.
+// Where the layer that is edited is in the image.
 #include <imgui.h>
 
 #include <array>
@@ -14,13 +14,13 @@ namespace {
 /// Corners of cells in the window.
 class CellCorners {
  public:
-  CellCorners(const VoxelsSettings& voxels, const View& view, const Box& picture)
+  CellCorners(const VoxelsSettings& voxels, const View& view, const Box& image)
       : voxels_(voxels),
         size_(size_of(voxels.layers)),
         turn_(voxels.rotation.axis, voxels.rotation.angle),
-        picture_(picture),
-        camera_(view.seen(), static_cast<int>(picture.right - picture.left),
-                static_cast<int>(picture.bottom - picture.top)),
+        image_(image),
+        camera_(view.seen(), static_cast<int>(image.right - image.left),
+                static_cast<int>(image.bottom - image.top)),
         through_(camera_.projection() * camera_.view()) {}
 
   /// The corner between cells, counted from the first of the layers; nothing behind the camera.
@@ -30,8 +30,8 @@ class CellCorners {
     const glm::vec4 p = through_ * glm::vec4(to_glm(place), 1.0f);
     if (!(p.w > 0.0f)) return std::nullopt;
     return ImVec2(
-        static_cast<float>(picture_.left) + 0.5f * (1.0f + p.x / p.w) * static_cast<float>(camera_.width()),
-        static_cast<float>(picture_.top) + 0.5f * (1.0f - p.y / p.w) * static_cast<float>(camera_.height()));
+        static_cast<float>(image_.left) + 0.5f * (1.0f + p.x / p.w) * static_cast<float>(camera_.width()),
+        static_cast<float>(image_.top) + 0.5f * (1.0f - p.y / p.w) * static_cast<float>(camera_.height()));
   }
   /// The four corners of a level rectangle.
   std::optional<std::array<ImVec2, 4>> rectangle(double left, double back, double right, double front,
@@ -50,7 +50,7 @@ class CellCorners {
   const VoxelsSettings& voxels_;
   std::array<int, 3> size_;
   Rotation turn_;
-  Box picture_;
+  Box image_;
   Camera camera_;
   glm::mat4 through_;
 };
@@ -62,11 +62,11 @@ void draw_frame(ImDrawList& draw, const CellCorners& corners, const std::array<i
              high = corners.rectangle(0, 0, size[0], size[2], layer + 1);
   if (!low || !high) return;
   constexpr ImU32 dark = IM_COL32(20, 24, 28, 130), bright = IM_COL32(255, 255, 255, 220);
-  for (const auto& [colour, width] : {std::pair(dark, 3.5f * unit), std::pair(bright, 1.5f * unit)}) {
+  for (const auto& [color, width] : {std::pair(dark, 3.5f * unit), std::pair(bright, 1.5f * unit)}) {
     for (std::size_t i = 0; i < 4; ++i) {
-      draw.AddLine((*low)[i], (*low)[(i + 1) % 4], colour, width);
-      draw.AddLine((*high)[i], (*high)[(i + 1) % 4], colour, width);
-      draw.AddLine((*low)[i], (*high)[i], colour, width);
+      draw.AddLine((*low)[i], (*low)[(i + 1) % 4], color, width);
+      draw.AddLine((*high)[i], (*high)[(i + 1) % 4], color, width);
+      draw.AddLine((*low)[i], (*high)[i], color, width);
     }
   }
 }
@@ -82,26 +82,26 @@ void draw_edited_layer(const PanelParts& p) {
   }
   p.cells.follow();
   // Later the body has moved on from where its cells are.
-  if (!p.cells.any() || p.simulation.step() != 0 || p.picture.film) return;
+  if (!p.cells.any() || p.simulation.step() != 0 || p.image.video) return;
   const VoxelsSettings voxels = p.cells.voxels();
   const std::array<int, 3> size = size_of(voxels.layers);
-  const Box& picture = p.picture.shown();
-  if (picture.right - picture.left < 2.0 || picture.bottom - picture.top < 2.0) return;
-  const CellCorners corners(voxels, p.view, picture);
+  const Box& image = p.image.shown();
+  if (image.right - image.left < 2.0 || image.bottom - image.top < 2.0) return;
+  const CellCorners corners(voxels, p.view, image);
   const int layer = p.cells.layer();
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  draw.PushClipRect({static_cast<float>(picture.left), static_cast<float>(picture.top)},
-                    {static_cast<float>(picture.right), static_cast<float>(picture.bottom)});
+  draw.PushClipRect({static_cast<float>(image.left), static_cast<float>(image.top)},
+                    {static_cast<float>(image.right), static_cast<float>(image.bottom)});
   const bool all = size[0] * size[2] <= most_cells;
   for (int row = 0; all && row < size[2]; ++row) {
     for (int column = 0; column < size[0]; ++column) {
       const char cell = cell_at(voxels.layers, layer, {row, column});
       if (!is_full_cell(cell)) continue;
       const auto top = corners.rectangle(column, row, column + 1, row + 1, layer + 1);
-      const ImU32 colour = cell_colour(p.scene.scene().model, voxels, cell);
+      const ImU32 color = cell_color(p.scene.scene().model, voxels, cell);
       if (top)
         draw.AddQuadFilled((*top)[0], (*top)[1], (*top)[2], (*top)[3],
-                           (colour & ~IM_COL32_A_MASK) | (ImU32{120} << IM_COL32_A_SHIFT));
+                           (color & ~IM_COL32_A_MASK) | (ImU32{120} << IM_COL32_A_SHIFT));
     }
   }
   const auto unit = static_cast<float>(p.gui.scale());

@@ -12,18 +12,18 @@
 #include "app/parameter_widget.h"
 #include "base/printable.h"
 #include "model/voxels.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "scene/materials.h"
 
 namespace aspic::app {
 namespace {
 
-constexpr ImU32 empty_colour = IM_COL32(30, 33, 37, 255), line_colour = IM_COL32(66, 72, 80, 255),
-                bright = IM_COL32(255, 255, 255, 235), waits_colour = IM_COL32(242, 140, 102, 255);
+constexpr ImU32 empty_color = IM_COL32(30, 33, 37, 255), line_color = IM_COL32(66, 72, 80, 255),
+                bright = IM_COL32(255, 255, 255, 235), waits_color = IM_COL32(242, 140, 102, 255);
 
 /// With another opacity, 0 to 255.
-ImU32 translucent(ImU32 colour, ImU32 alpha) {
-  return (colour & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT);
+ImU32 translucent(ImU32 color, ImU32 alpha) {
+  return (color & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT);
 }
 
 std::string text_of(char c) {
@@ -59,12 +59,12 @@ void draw_cells(const Scene& scene, const VoxelsSettings& voxels, int layer, con
       const ImVec2 a = places.low(place), b = places.high(place);
       const char cell = cell_at(voxels.layers, layer, place);
       const bool full = is_full_cell(cell);
-      draw.AddRectFilled(a, b, full ? cell_colour(scene.model, voxels, cell) : empty_colour);
+      draw.AddRectFilled(a, b, full ? cell_color(scene.model, voxels, cell) : empty_color);
       const char below = layer > 0 ? cell_at(voxels.layers, layer - 1, place) : empty_cell;
       if (!full && is_full_cell(below)) {
         const float inset = 0.3f * places.cell;
         draw.AddRectFilled({a.x + inset, a.y + inset}, {b.x - inset, b.y - inset},
-                           translucent(cell_colour(scene.model, voxels, below), 90));
+                           translucent(cell_color(scene.model, voxels, below), 90));
       }
       if (full && signs) {
         const ImVec2 size = ImGui::CalcTextSize(&cell, &cell + 1);
@@ -76,9 +76,9 @@ void draw_cells(const Scene& scene, const VoxelsSettings& voxels, int layer, con
   const ImVec2 end = places.low({rows, columns});
   if (places.cell < 4.0f) return;
   for (int row = 0; row <= rows; ++row)
-    draw.AddLine(places.low({row, 0}), {end.x, places.low({row, 0}).y}, line_colour);
+    draw.AddLine(places.low({row, 0}), {end.x, places.low({row, 0}).y}, line_color);
   for (int column = 0; column <= columns; ++column)
-    draw.AddLine(places.low({0, column}), {places.low({0, column}).x, end.y}, line_colour);
+    draw.AddLine(places.low({0, column}), {places.low({0, column}).x, end.y}, line_color);
 }
 
 /// Paints and erases where the mouse goes with a button held on the grid.
@@ -92,7 +92,7 @@ void strokes(CellEditor& cells, const GridPlaces& places, const CellPlace& under
         places.under(io.MouseClickedPos[left ? ImGuiMouseButton_Left : ImGuiMouseButton_Right]),
         right && !left ? empty_cell : cells.brush());
   }
-  // The mouse may have gone on in the picture in which the button came up.
+  // The mouse may have gone on in the image in which the button came up.
   if (ImGui::IsItemActive() || ImGui::IsItemDeactivated()) cells.stroke(under);
   if (!ImGui::IsItemActive()) cells.end_stroke();
 }
@@ -143,7 +143,7 @@ void grid(Gui& gui, const SceneControl& scene, CellEditor& cells) {
   ImGui::InvisibleButton("##grid", size,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   gui.mark("cells/grid");
-  gui.explain(grid_help, "");  // shown at the line above, where it does not hide the picture
+  gui.explain(grid_help, "");  // shown at the line above, where it does not hide the image
   std::optional<CellPlace> under;
   const CellPlace here = places.under(ImGui::GetIO().MousePos);
   if (ImGui::IsItemHovered()) {
@@ -156,7 +156,7 @@ void grid(Gui& gui, const SceneControl& scene, CellEditor& cells) {
   draw_cells(scene.scene(), shown, cells.layer(), places);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (!cells.refusal().empty())
-    draw.AddRect(places.corner, {places.corner.x + size.x, places.corner.y + size.y}, waits_colour, 0.0f, 0,
+    draw.AddRect(places.corner, {places.corner.x + size.x, places.corner.y + size.y}, waits_color, 0.0f, 0,
                  2.0f * unit);
   if (under && is_inside(shown.layers, here))
     draw.AddRect(places.low(here), places.high(here), bright, 0.0f, 0, 1.5f * unit);
@@ -168,7 +168,7 @@ void grid(Gui& gui, const SceneControl& scene, CellEditor& cells) {
 /// Cells that the scene does not take, and the ways on.
 void waiting(Gui& gui, CellEditor& cells) {
   if (cells.refusal().empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, waits_colour);
+  ImGui::PushStyleColor(ImGuiCol_Text, waits_color);
   wrapped_text("Pending. " + printable(cells.refusal()), ImGui::GetContentRegionAvail().x);
   ImGui::PopStyleColor();
   gui.mark("cells/refusal");
@@ -210,14 +210,14 @@ void layer_row(Gui& gui, CellEditor& cells, int high) {
   if (layer != cells.layer()) cells.choose_layer(layer);
 }
 
-/// A button in the colour of a cell; the one that paints has a frame. True if it was pressed.
-bool swatch(Gui& gui, const std::string& name, const std::string& sign, ImU32 colour, bool chosen,
+/// A button in the color of a cell; the one that paints has a frame. True if it was pressed.
+bool swatch(Gui& gui, const std::string& name, const std::string& sign, ImU32 color, bool chosen,
             std::string_view help) {
   const float side = ImGui::GetFrameHeight();
-  ImGui::PushStyleColor(ImGuiCol_Button, colour);
-  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, translucent(colour, 210));
-  ImGui::PushStyleColor(ImGuiCol_ButtonActive, translucent(colour, 170));
-  ImGui::PushStyleColor(ImGuiCol_Text, colour == empty_colour ? bright : IM_COL32(10, 12, 14, 235));
+  ImGui::PushStyleColor(ImGuiCol_Button, color);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, translucent(color, 210));
+  ImGui::PushStyleColor(ImGuiCol_ButtonActive, translucent(color, 170));
+  ImGui::PushStyleColor(ImGuiCol_Text, color == empty_color ? bright : IM_COL32(10, 12, 14, 235));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, ImGui::GetStyle().FramePadding.y));
   const bool pressed = button(gui, name.c_str(), sign.c_str(), help, true, side);
   ImGui::PopStyleVar();
@@ -229,12 +229,12 @@ bool swatch(Gui& gui, const std::string& name, const std::string& sign, ImU32 co
   return pressed;
 }
 
-/// A material of the palette: its sign and colour, its name, and a button that removes it.
+/// A material of the palette: its sign and color, its name, and a button that removes it.
 void palette_row(Gui& gui, SceneControl& scene, CellEditor& cells, char cell) {
   const ModelSettings& settings = scene.scene().model;
   const VoxelsSettings& voxels = settings.voxels[cells.body()];
   const std::string key = text_of(cell), name = "cells/palette/" + key;
-  if (swatch(gui, name, key, cell_colour(settings, voxels, cell), cells.brush() == cell,
+  if (swatch(gui, name, key, cell_color(settings, voxels, cell), cells.brush() == cell,
              fmt::format("Paints cells '{}'. Digits select materials in the order of the rows.", cell)))
     cells.choose_brush(cell);
   ImGui::SameLine();
@@ -297,7 +297,7 @@ void palette(Gui& gui, SceneControl& scene, CellEditor& cells) {
     palette_row(gui, scene, cells, cell);
     if (cells.voxels().palette.empty()) break;
   }
-  if (swatch(gui, "cells/eraser", " ", empty_colour, cells.brush() == empty_cell,
+  if (swatch(gui, "cells/eraser", " ", empty_color, cells.brush() == empty_cell,
              "Erases cells, as the right button does. Key: 0"))
     cells.choose_brush(empty_cell);
   ImGui::SameLine();
@@ -396,17 +396,17 @@ bool has_skin(Gui& gui, SceneControl& scene, std::size_t body) {
 
 }  // namespace
 
-ImU32 material_colour(const ModelSettings& settings, std::string_view name) {
+ImU32 material_color(const ModelSettings& settings, std::string_view name) {
   const auto found = std::ranges::find(settings.materials, name, &MaterialSettings::name);
   const bool named = !name.empty() && found != settings.materials.end();
-  return display_colour(named ? body_colour(static_cast<std::size_t>(found - settings.materials.begin()))
-                              : neutral_body_colour());
+  return display_color(named ? body_color(static_cast<std::size_t>(found - settings.materials.begin()))
+                             : neutral_body_color());
 }
 
-ImU32 cell_colour(const ModelSettings& settings, const VoxelsSettings& voxels, char cell) {
-  if (voxels.palette.empty()) return material_colour(settings, voxels.material.name);
+ImU32 cell_color(const ModelSettings& settings, const VoxelsSettings& voxels, char cell) {
+  if (voxels.palette.empty()) return material_color(settings, voxels.material.name);
   const auto entry = voxels.palette.find(text_of(cell));
-  return material_colour(settings, entry == voxels.palette.end() ? std::string_view() : entry->second);
+  return material_color(settings, entry == voxels.palette.end() ? std::string_view() : entry->second);
 }
 
 std::string material_text(const VoxelsSettings& voxels, char cell) {

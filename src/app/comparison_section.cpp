@@ -1,4 +1,4 @@
-// The section of runs compared, and the names on their pictures.
+// The section of runs compared, and the names on their images.
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -13,7 +13,7 @@
 #include "app/parameter_widget.h"
 #include "base/printable.h"
 #include "model/integrator.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "run/backends.h"
 #include "scene/parameters.h"
 #include "scene/short_keys.h"
@@ -107,7 +107,7 @@ void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& compariso
   const std::vector<Difference> differences = scene.editor().differences();
   for (std::size_t i = 1; i <= differences.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(ComparisonView::packed_colour(i)), "Run %zu", i + 1);
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(ComparisonView::packed_color(i)), "Run %zu", i + 1);
     ImGui::SameLine();
     const bool removed = button(gui, fmt::format("comparison/{}/remove", i).c_str(), "Remove",
                                 "Ends this run. The others continue.");
@@ -145,12 +145,12 @@ void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& compariso
   }
 }
 
-std::uint32_t ComparisonView::packed_colour(std::size_t i) {
-  const auto& colour = run_colours[i];
-  return IM_COL32(colour[0], colour[1], colour[2], 255);
+std::uint32_t ComparisonView::packed_color(std::size_t i) {
+  const auto& color = run_colors[i];
+  return IM_COL32(color[0], color[1], color[2], 255);
 }
 
-/// Tells where the ghost stands still, in the lower part of the picture.
+/// Tells where the ghost stands still, in the lower part of the image.
 void ComparisonView::draw_ghost_label(const Gui& gui) const {
   const GhostRun* const ghost = comparison_.ghost();
   if (!ghost) return;
@@ -175,7 +175,7 @@ void ComparisonView::draw_ghost_label(const Gui& gui) const {
   ImGui::PopStyleVar();
 }
 
-/// "implicit Euler · 1.501 s" in a frame of the run's colour, to be read from the last row.
+/// "implicit Euler · 1.501 s" in a frame of the run's color, to be read from the last row.
 void ComparisonView::draw_labels(const Gui& gui) const {
   draw_ghost_label(gui);
   if (!comparison_.active()) return;
@@ -188,9 +188,9 @@ void ComparisonView::draw_labels(const Gui& gui) const {
                  high = {static_cast<float>(box.right), static_cast<float>(box.bottom)};
     ImGui::GetBackgroundDrawList()->AddRect({low.x + 0.5f * thickness, low.y + 0.5f * thickness},
                                             {high.x - 0.5f * thickness, high.y - 0.5f * thickness},
-                                            packed_colour(i), 0.0f, 0, thickness);
-    // A film has the names in its pictures.
-    if (picture_.film && picture_.film->text) continue;
+                                            packed_color(i), 0.0f, 0, thickness);
+    // A video has the names in its images.
+    if (image_.video && image_.video->text) continue;
     ImGui::SetNextWindowPos({low.x + gap, low.y + gap});
     ImGui::SetNextWindowBgAlpha(0.72f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
@@ -200,7 +200,7 @@ void ComparisonView::draw_labels(const Gui& gui) const {
     const std::string line = fmt::format("{} · {}", own, time);
     const float room = high.x - low.x - 2.0f * (gap + ImGui::GetStyle().WindowPadding.x);
     ImGui::BeginGroup();
-    ImGui::PushStyleColor(ImGuiCol_Text, packed_colour(i));
+    ImGui::PushStyleColor(ImGuiCol_Text, packed_color(i));
     if (ImGui::CalcTextSize(line.c_str()).x <= room) {
       ImGui::TextUnformatted(own.c_str());
       ImGui::PopStyleColor();

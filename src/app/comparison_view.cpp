@@ -72,11 +72,10 @@ void ComparisonView::refuse(const Difference& difference, const Error& why) {
   scene_.set_differences(std::move(rest), "fewer runs compared");
 }
 
-Result<ComparisonView::Pictured> ComparisonView::pictured(std::size_t i) {
-  Pictured made = {
-      &comparison_.run(i),
-      std::make_unique<ScenePicture>(comparison_.run(i), comparison_.scene(i), view_, picture_.full_quality)};
-  ASPIC_CHECK(made.picture->attach(*context_));
+Result<ComparisonView::Rendered> ComparisonView::rendered(std::size_t i) {
+  Rendered made = {&comparison_.run(i), std::make_unique<SceneImage>(comparison_.run(i), comparison_.scene(i),
+                                                                     view_, image_.full_quality)};
+  ASPIC_CHECK(made.image->attach(*context_));
   return made;
 }
 
@@ -88,31 +87,31 @@ void ComparisonView::match_editor() {
   if (const auto refusal = comparison_.set(*context_, wanted))
     return refuse(refusal->difference, refusal->why);
   if (comparison_.count() < before) messages_.dismiss_refusal();
-  std::vector<Pictured> next;
+  std::vector<Rendered> next;
   for (std::size_t i = 1; i < comparison_.count(); ++i) {
-    const auto known = std::ranges::find(pictures_, &comparison_.run(i), &Pictured::run);
-    if (known != pictures_.end()) {
+    const auto known = std::ranges::find(images_, &comparison_.run(i), &Rendered::run);
+    if (known != images_.end()) {
       next.push_back(std::move(*known));
-    } else if (auto made = pictured(i)) {
+    } else if (auto made = rendered(i)) {
       next.push_back(std::move(*made));
     } else {
-      // Without a picture there is no run.
-      pictures_.clear();
+      // Without an image there is no run.
+      images_.clear();
       comparison_.end();
       return refuse(wanted[i - 1], made.error());
     }
   }
-  pictures_ = std::move(next);
-  if (!comparison_.several()) picture_.keep(std::nullopt);
+  images_ = std::move(next);
+  if (!comparison_.several()) image_.keep(std::nullopt);
 }
 
 void ComparisonView::detach() {
-  pictures_.clear();
+  images_.clear();
   ghost_.reset();
   boxes_.clear();
   comparison_.end();
   comparison_.remove_ghost();
-  picture_.keep(std::nullopt);
+  image_.keep(std::nullopt);
   context_ = nullptr;
 }
 
@@ -121,7 +120,7 @@ void ComparisonView::keep_ghost() {
   if (!messages_.check(comparison_.keep_ghost(*context_))) return;
   GhostRun& ghost = *comparison_.ghost();
   ghost_source_ = scene_.editor().source();
-  ghost_ = std::make_unique<ScenePicture>(ghost.simulation(), ghost.scene(), view_, picture_.full_quality);
+  ghost_ = std::make_unique<SceneImage>(ghost.simulation(), ghost.scene(), view_, image_.full_quality);
   ghost_->ghost = true;
   if (!messages_.check(ghost_->attach(*context_))) return remove_ghost();
   messages_.info(fmt::format(
@@ -131,7 +130,7 @@ void ComparisonView::keep_ghost() {
 void ComparisonView::remove_ghost() {
   ghost_.reset();
   comparison_.remove_ghost();
-  if (!comparison_.several()) picture_.keep(std::nullopt);
+  if (!comparison_.several()) image_.keep(std::nullopt);
 }
 
 bool ComparisonView::go_to(double time) {
@@ -142,7 +141,7 @@ bool ComparisonView::go_to(double time) {
   return true;
 }
 
-// ---- pictures ----
+// ---- images ----
 
 std::string ComparisonView::name(std::size_t i) const {
   return short_name(i, comparison_.differences(), comparison_.scene(i),
@@ -152,7 +151,7 @@ std::string ComparisonView::name(std::size_t i) const {
 void ComparisonView::update() {
   for (const Error& message : comparison_.take_messages()) messages_.error(message);
   if (std::exchange(shown_number_, comparison_.shown_number()) == comparison_.shown_number()) return;
-  for (std::size_t i = 0; i < comparison_.count(); ++i) picture(i).keep(comparison_.run(i).snapshot());
+  for (std::size_t i = 0; i < comparison_.count(); ++i) image(i).keep(comparison_.run(i).snapshot());
   if (ghost_) ghost_->keep(comparison_.ghost()->simulation().snapshot());
 }
 
@@ -169,45 +168,45 @@ void ComparisonView::place(const Box& whole) {
   view_.box = boxes_.front();
   view_.others.clear();
   for (std::size_t i = 1; i < comparison_.count(); ++i)
-    view_.others.push_back({boxes_[i], picture(i).offset()});
+    view_.others.push_back({boxes_[i], image(i).offset()});
 }
 
-void ComparisonView::share_colours() {
+void ComparisonView::share_colors() {
   const bool active = comparison_.active();
-  picture_.common_range.reset();
+  image_.common_range.reset();
   for (std::size_t i = 0; i < comparison_.count(); ++i)
-    picture(i).tint = active ? std::optional(run_tint(i)) : std::nullopt;
+    image(i).tint = active ? std::optional(run_tint(i)) : std::nullopt;
   const ViewSettings& view = comparison_.scene(0).view;
-  if (!active || !has_scale(view.colour)) return;
-  QuantityRange range = picture_.own_range();
+  if (!active || !has_scale(view.color)) return;
+  QuantityRange range = image_.own_range();
   const auto shares = [&](std::size_t i) { return share_scale(comparison_.scene(i).view, view); };
   for (std::size_t i = 1; i < comparison_.count(); ++i)
-    if (shares(i)) range = widest(range, picture(i).own_range());
-  picture_.common_range = range;
+    if (shares(i)) range = widest(range, image(i).own_range());
+  image_.common_range = range;
   for (std::size_t i = 1; i < comparison_.count(); ++i)
-    picture(i).common_range = shares(i) ? std::optional(range) : std::nullopt;
+    image(i).common_range = shares(i) ? std::optional(range) : std::nullopt;
 }
 
 bool ComparisonView::refining() const {
   return (ghost_ && ghost_->refining()) ||
-         std::ranges::any_of(pictures_, [](const Pictured& p) { return p.picture->refining(); });
+         std::ranges::any_of(images_, [](const Rendered& p) { return p.image->refining(); });
 }
 
 Status ComparisonView::show(const WindowSize& window) {
   if (ghost_) {
     ghost_->shadows = false;
-    ghost_->at_rest = picture_.at_rest;
-    ghost_->at_once = picture_.at_once;
-    ghost_->film.reset();
-    if (picture_.film) ghost_->film = FilmLook{picture_.film->size};
+    ghost_->at_rest = image_.at_rest;
+    ghost_->at_once = image_.at_once;
+    ghost_->video.reset();
+    if (image_.video) ghost_->video = VideoLook{image_.video->size};
     ASPIC_CHECK(ghost_->show(window, boxes_.front()));
   }
   for (std::size_t i = 1; i < comparison_.count(); ++i) {
-    ScenePicture& other = picture(i);
-    other.shadows = picture_.shadows;
-    other.full_quality = picture_.full_quality;
-    other.at_rest = picture_.at_rest;
-    other.at_once = picture_.at_once;
+    SceneImage& other = image(i);
+    other.shadows = image_.shadows;
+    other.full_quality = image_.full_quality;
+    other.at_rest = image_.at_rest;
+    other.at_once = image_.at_once;
     ASPIC_CHECK(other.show(window, boxes_[i]));
     if (const auto refusal = other.take_refusal()) messages_.error(*refusal);
   }

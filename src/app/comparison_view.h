@@ -1,5 +1,5 @@
 #pragma once
-// What the window shows of runs compared: their pictures side by side, their names and colours; and what it
+// What the window shows of runs compared: their images side by side, their names and colors; and what it
 // offers to compare.
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include "app/gui.h"
 #include "app/messages.h"
 #include "app/scene_control.h"
-#include "app/scene_picture.h"
+#include "app/scene_image.h"
 #include "app/view.h"
 #include "app/window.h"
 #include "base/result.h"
@@ -22,13 +22,13 @@ namespace aspic::app {
 /// What differences there are is the editor's: see SceneEditor::differences().
 class ComparisonView {
  public:
-  /// The references must outlive it. `picture` is that of run 0.
-  ComparisonView(Comparison& comparison, SceneControl& scene, View& view, ScenePicture& picture,
+  /// The references must outlive it. `image` is that of run 0.
+  ComparisonView(Comparison& comparison, SceneControl& scene, View& view, SceneImage& image,
                  Messages& messages, const BackendChoice& asked)
       : comparison_(comparison),
         scene_(scene),
         view_(view),
-        picture_(picture),
+        image_(image),
         messages_(messages),
         asked_(asked) {}
 
@@ -49,60 +49,60 @@ class ComparisonView {
   void remove(std::size_t i);
   /// Back to one run.
   void leave();
-  /// The run so far is the ghost from now on, pale over the picture of run 0, instead of another one.
+  /// The run so far is the ghost from now on, pale over the image of run 0, instead of another one.
   void keep_ghost();
   void remove_ghost();
   /// The ghost as it is drawn; null: there is none.
-  const ScenePicture* ghost() const { return ghost_.get(); }
+  const SceneImage* ghost() const { return ghost_.get(); }
   /// Before the runs move: there are those that the editor has, and the ghost is of its scene.
   void match_editor();
   /// ComparisonClock::go_to(), with the scene's values of that time.
   bool go_to(double time);
 
-  // ---- pictures ----
-  ScenePicture& picture(std::size_t i) { return i == 0 ? picture_ : *pictures_[i - 1].picture; }
+  // ---- images ----
+  SceneImage& image(std::size_t i) { return i == 0 ? image_ : *images_[i - 1].image; }
   /// What distinguishes a run from the others, in few words: of run 0 all values that others differ in, of
   /// those their own difference.
   std::string name(std::size_t i) const;
-  /// The colour of a run's curves and label, as ImGui packs it.
-  static std::uint32_t packed_colour(std::size_t i);
-  /// After the runs moved: their pictures show the states of one time.
+  /// The color of a run's curves and label, as ImGui packs it.
+  static std::uint32_t packed_color(std::size_t i);
+  /// After the runs moved: their images show the states of one time.
   void update();
   /// Divides the place of the scene between the runs.
   void place(const Box& whole);
   /// The places of all runs [window units]; one if there is only run 0.
   const std::vector<Box>& boxes() const { return boxes_; }
-  /// Before pictures are drawn: those of one colour and scale get the widest of their ranges, so that colours
+  /// Before images are drawn: those of one color and scale get the widest of their ranges, so that colors
   /// can be compared.
-  void share_colours();
-  /// Draws the other runs' pictures, after ScenePicture::show() did that of run 0.
+  void share_colors();
+  /// Draws the other runs' images, after SceneImage::show() did that of run 0.
   Status show(const WindowSize& window);
-  /// Of one of them a fine picture is under way.
+  /// Of one of them a fine image is under way.
   bool refining() const;
-  /// Names the runs on their pictures, between Gui::begin and end.
+  /// Names the runs on their images, between Gui::begin and end.
   void draw_labels(const Gui& gui) const;
 
  private:
-  struct Pictured {
+  struct Rendered {
     const PlaybackSession* run = nullptr;
-    std::unique_ptr<ScenePicture> picture;
+    std::unique_ptr<SceneImage> image;
   };
   void refuse(const Difference& difference, const Error& why);
-  Result<Pictured> pictured(std::size_t i);
+  Result<Rendered> rendered(std::size_t i);
   void draw_ghost_label(const Gui& gui) const;
 
   Comparison& comparison_;
   SceneControl& scene_;
   View& view_;
-  ScenePicture& picture_;
+  SceneImage& image_;
   Messages& messages_;
   BackendChoice asked_;
   gl::Context* context_ = nullptr;
-  std::vector<Pictured> pictures_;  // of runs 1, 2 …
-  std::unique_ptr<ScenePicture> ghost_;
+  std::vector<Rendered> images_;  // of runs 1, 2 …
+  std::unique_ptr<SceneImage> ghost_;
   std::string ghost_source_;  // of its scene
   std::vector<Box> boxes_;
-  std::uint64_t shown_number_ = 0;  // Comparison::shown_number() of the pictures
+  std::uint64_t shown_number_ = 0;  // Comparison::shown_number() of the images
 };
 
 }  // namespace aspic::app

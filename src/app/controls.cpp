@@ -34,7 +34,7 @@ void wrapped_text(std::string_view text, float width) {
 
 namespace {
 
-/// Next to the panel of the widget just made, so that it covers none of its neighbours; else below or above.
+/// Next to the panel of the widget just made, so that it covers none of its neighbors; else below or above.
 void place_tooltip(float text_width) {
   const ImVec2 display = ImGui::GetIO().DisplaySize, pad = ImGui::GetStyle().WindowPadding;
   const ImVec2 corner = ImGui::GetWindowPos(), low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();

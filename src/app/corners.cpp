@@ -1,4 +1,4 @@
-// The corners of the view, in window pixels whatever the picture's own: labels, legends and
+// The corners of the view, in window pixels whatever the image's own: labels, legends and
 // axes.
 #include <fmt/format.h>
 #include <imgui.h>
@@ -43,7 +43,7 @@ void draw_axes(const Gui& gui, const Camera& camera, const Box& view, std::span<
   if (place == places.end()) return;
   gui.mark_box("axes", *place);
   const float reach = static_cast<float>(axes_reach) * em;
-  const ImVec2 middle = {static_cast<float>(place->centre_x()), static_cast<float>(place->centre_y())};
+  const ImVec2 middle = {static_cast<float>(place->center_x()), static_cast<float>(place->center_y())};
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.AddCircleFilled(middle, reach, IM_COL32(12, 14, 18, 110), 48);
   for (const AxisArm& arm : axes_seen(camera)) {
@@ -52,8 +52,8 @@ void draw_axes(const Gui& gui, const Camera& camera, const Box& view, std::span<
       return ImVec2(middle.x + static_cast<float>(arm.right) * length,
                     middle.y + static_cast<float>(arm.down) * length);
     };
-    const ImU32 colour = display_colour(arm.colour);
-    list.AddLine(middle, at(1.0), colour, 2.0f * static_cast<float>(0.5 * axis_width) * em);
+    const ImU32 color = display_color(arm.color);
+    list.AddLine(middle, at(1.0), color, 2.0f * static_cast<float>(0.5 * axis_width) * em);
     const ImVec2 drawn = ImGui::CalcTextSize(&arm.letter, &arm.letter + 1), letter = at(axis_letter_at);
     list.AddText({letter.x - 0.5f * drawn.x, letter.y - 0.5f * drawn.y}, IM_COL32(240, 243, 247, 255),
                  &arm.letter, &arm.letter + 1);
@@ -65,7 +65,7 @@ Box box_of(const ImGuiWindow& w) {
   return {left, top, left + static_cast<double>(w.Size.x), top + static_cast<double>(w.Size.y)};
 }
 
-/// Where the labels of runs side by side and of a ghost are in this picture.
+/// Where the labels of runs side by side and of a ghost are in this image.
 std::vector<Box> label_boxes() {
   std::vector<Box> boxes;
   for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
@@ -106,9 +106,9 @@ Box window_box() {
 void draw_corners(const PanelParts& p, const Box& view) {
   p.comparison_view.draw_labels(p.gui);
   const std::vector<Box> labels = label_boxes();
-  std::vector<Box> taken = {draw_legend(p.gui, "legend", p.picture.legend(), view)};
+  std::vector<Box> taken = {draw_legend(p.gui, "legend", p.image.legend(), view)};
   const Box above = {view.left, view.top, view.right, taken.front().top};
-  taken.push_back(draw_legend(p.gui, "legend/arrows", p.picture.arrow_legend(), above));
+  taken.push_back(draw_legend(p.gui, "legend/arrows", p.image.arrow_legend(), above));
   std::vector<Box> legends = taken;
   std::erase_if(legends, [](const Box& box) { return box.right <= box.left; });
   // A message may be where the readout comes to be.
@@ -118,7 +118,7 @@ void draw_corners(const PanelParts& p, const Box& view) {
       legends.push_back(box_of(*notice));
   Box below = view;
   for (const Box& label : labels)
-    if (label.right > view.centre_x()) below.top = std::max(below.top, label.bottom);
+    if (label.right > view.center_x()) below.top = std::max(below.top, label.bottom);
   taken.insert(taken.end(), labels.begin(), labels.end());
   // Labels of runs side by side tell the time themselves.
   if (p.layout.clock && !p.comparison.active()) {
@@ -128,7 +128,7 @@ void draw_corners(const PanelParts& p, const Box& view) {
   if (const auto& hovered = p.pointer.hovered(); hovered && p.layout.row().readout)
     taken.push_back(particle_readout(p.gui, p.simulation, *hovered, below, legends));
   std::erase_if(taken, [](const Box& box) { return box.right <= box.left; });
-  if (p.scene.scene().view.axes && !p.picture.film) draw_axes(p.gui, p.view.lens(), view, taken);
+  if (p.scene.scene().view.axes && !p.image.video) draw_axes(p.gui, p.view.lens(), view, taken);
 }
 
 }  // namespace aspic::app

@@ -14,8 +14,8 @@ inline constexpr float figure_column = 0.52f;
 
 /// A row of a section: a name and its value.
 inline void figure(const char* label, const std::string& value, std::string_view help,
-                   const ImVec4& colour = ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)) {
-  ImGui::TextColored(colour, "%s", label);
+                   const ImVec4& color = ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)) {
+  ImGui::TextColored(color, "%s", label);
   tooltip(help);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * figure_column);
   ImGui::TextUnformatted(value.c_str());

@@ -26,7 +26,7 @@ class FileDialog {
   void ask(FileQuestion question, const std::string& suggested);
   bool is_open() const { return open_; }
   void close() { open_ = false; }
-  /// Once for each picture, between Gui::begin and end; sizes in window units.
+  /// Once for each image, between Gui::begin and end; sizes in window units.
   void draw(Gui& gui, double width, double height);
 
  private:

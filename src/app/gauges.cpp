@@ -25,7 +25,7 @@ namespace {
 using Sampled = double (*)(const EnergySample&);
 struct Curve {
   const char* name;
-  ImU32 colour;
+  ImU32 color;
   Sampled value;
   bool counts = true;  ///< for the scale: work grows and grows
 };
@@ -113,7 +113,7 @@ struct Pointed {
 /// A curve of a run.
 struct Line {
   const std::deque<EnergySample>* samples;
-  ImU32 colour;
+  ImU32 color;
   Sampled value;
   bool counts = true;  ///< for the scale; one that does not may leave the plot
 };
@@ -197,7 +197,7 @@ std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> li
   draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   for (const Line& line : lines) {
     for (const ImVec2& point : seen(line, place)) draw.PathLineTo(point);
-    draw.PathStroke(line.colour, 0, static_cast<float>(1.5 * plot.scale));
+    draw.PathStroke(line.color, 0, static_cast<float>(1.5 * plot.scale));
   }
   draw.PopClipRect();
   const double at = std::clamp(now, start, start + span);
@@ -224,7 +224,7 @@ constexpr ImU32 same = IM_COL32(120, 205, 140, 255), other = IM_COL32(240, 120, 
 
 /// Places 0 at the bottom and powers of ten above, from 1 ULP on.
 double height_of(const DifferenceSample& sample) {
-  if (!std::isfinite(sample.metres)) return 1.0;
+  if (!std::isfinite(sample.meters)) return 1.0;
   return std::min(std::log10(1.0 + static_cast<double>(sample.ulp)) / 10.0, 1.0);
 }
 
@@ -249,7 +249,7 @@ std::vector<const BackendRow*> others_than(const BackendRow& leader) {
   return rows;
 }
 
-/// One quantity of all runs in their colours.
+/// One quantity of all runs in their colors.
 void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, std::size_t& compared,
                    const char* unit, std::string_view help, ComparisonView& comparison_view,
                    RunControl& run) {
@@ -264,7 +264,7 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
   const Curve& curve = curves[compared];
   std::vector<Line> lines;
   for (std::size_t i = 0; i < comparison.count(); ++i)
-    lines.push_back({&comparison.run(i).samples().energies(), ComparisonView::packed_colour(i), curve.value,
+    lines.push_back({&comparison.run(i).samples().energies(), ComparisonView::packed_color(i), curve.value,
                      !comparison.run(i).divergence().has_value()});
   // All figures are of one moment: the newest that all runs have come to.
   const double now = comparison.clock().figures_time();
@@ -290,7 +290,7 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
     fits = fits && ImGui::CalcTextSize(runs.back().c_str()).x + ImGui::GetStyle().ItemSpacing.x < column;
   }
   for (std::size_t i = 0; i < comparison.count(); ++i) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ComparisonView::packed_colour(i));
+    ImGui::PushStyleColor(ImGuiCol_Text, ComparisonView::packed_color(i));
     wrapped_text(runs[i], ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
     gui.mark("{}/run {}/name", name, i + 1);
@@ -314,7 +314,7 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
     if (comparison.active())
       return compared_runs(gui, name, curves, compared, unit, help, comparison_view, run);
     std::vector<Line> lines;
-    for (const Curve& c : curves) lines.push_back({&s.samples().energies(), c.colour, c.value, c.counts});
+    for (const Curve& c : curves) lines.push_back({&s.samples().energies(), c.color, c.value, c.counts});
     const double now = comparison.clock().time();
     const auto pointed = plot(gui, name, lines, unit, help, now);
     if (pointed && pointed->pressed) run.go_to(pointed->time);
@@ -324,7 +324,7 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
     const double size = largest(lines);
     for (const Curve& c : curves) {
       figure(c.name, sample ? with_prefix(without_noise(c.value(*sample), size), unit) : std::string("-"),
-             help, ImGui::ColorConvertU32ToFloat4(c.colour));
+             help, ImGui::ColorConvertU32ToFloat4(c.color));
       gui.mark("{}/{}", name, c.name);
     }
   };
@@ -362,11 +362,11 @@ void shadow_section(Gui& gui, const PlaybackSession& s, RunControl& run) {
     return;
   }
   const DifferenceSample& last = s.samples().differences().back();
-  const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(last.identical ? same : other);
-  const std::string text = !std::isfinite(last.metres) ? "one backend diverged"
+  const ImVec4 color = ImGui::ColorConvertU32ToFloat4(last.identical ? same : other);
+  const std::string text = !std::isfinite(last.meters) ? "one backend diverged"
                            : last.identical            ? "0 ULP, 0 m: identical bits"
-                                            : fmt::format("{} ULP, {:.3g} m", last.ulp, last.metres);
-  ImGui::TextColored(colour, "%s", text.c_str());
+                                            : fmt::format("{} ULP, {:.3g} m", last.ulp, last.meters);
+  ImGui::TextColored(color, "%s", text.c_str());
   gui.mark("shadow/difference");
   if (last.identical && s.samples().ever_differed())
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(other), "they differed before");

@@ -35,11 +35,11 @@ bool edits(int key) {
   return (key >= GLFW_KEY_ESCAPE && key <= GLFW_KEY_END) || key == GLFW_KEY_KP_ENTER;
 }
 
-ImVec4 grey(float value, float alpha = 1.0f) {
+ImVec4 gray(float value, float alpha = 1.0f) {
   return {value, value * 1.02f, value * 1.07f, alpha};
 }
 
-/// Dark and quiet: grey surfaces, one accent.
+/// Dark and quiet: gray surfaces, one accent.
 void set_theme(float scale) {
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
@@ -54,15 +54,15 @@ void set_theme(float scale) {
   const ImVec4 accent = {0.25f, 0.56f, 0.62f, 1.0f};
   const auto tint = [&](float alpha) { return ImVec4(accent.x, accent.y, accent.z, alpha); };
   ImVec4* c = style.Colors;
-  c[ImGuiCol_Text] = grey(0.88f);
-  c[ImGuiCol_TextDisabled] = grey(0.56f);
-  c[ImGuiCol_WindowBg] = grey(0.105f);
-  c[ImGuiCol_PopupBg] = grey(0.13f, 0.98f);
-  c[ImGuiCol_Border] = grey(0.25f);
-  c[ImGuiCol_FrameBg] = grey(0.18f);
-  c[ImGuiCol_FrameBgHovered] = grey(0.23f);
-  c[ImGuiCol_FrameBgActive] = grey(0.27f);
-  c[ImGuiCol_Button] = grey(0.21f);
+  c[ImGuiCol_Text] = gray(0.88f);
+  c[ImGuiCol_TextDisabled] = gray(0.56f);
+  c[ImGuiCol_WindowBg] = gray(0.105f);
+  c[ImGuiCol_PopupBg] = gray(0.13f, 0.98f);
+  c[ImGuiCol_Border] = gray(0.25f);
+  c[ImGuiCol_FrameBg] = gray(0.18f);
+  c[ImGuiCol_FrameBgHovered] = gray(0.23f);
+  c[ImGuiCol_FrameBgActive] = gray(0.27f);
+  c[ImGuiCol_Button] = gray(0.21f);
   c[ImGuiCol_ButtonHovered] = tint(0.55f);
   c[ImGuiCol_ButtonActive] = tint(0.85f);
   c[ImGuiCol_Header] = {0.13f, 0.215f, 0.235f, 1.0f};
@@ -72,7 +72,7 @@ void set_theme(float scale) {
   c[ImGuiCol_SliderGrab] = tint(0.5f);  // the value can be read through it
   c[ImGuiCol_SliderGrabActive] = accent;
   c[ImGuiCol_TextSelectedBg] = tint(0.5f);
-  c[ImGuiCol_Separator] = grey(0.22f);
+  c[ImGuiCol_Separator] = gray(0.22f);
   style.ScaleAllSizes(scale);
 }
 
@@ -106,7 +106,7 @@ Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services, 
   io.IniFilename = nullptr;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
 #if IMGUI_VERSION_NUM >= 18900
-  io.ConfigInputTrickleEventQueue = false;  // App spreads events over pictures itself: ready_for()
+  io.ConfigInputTrickleEventQueue = false;  // App spreads events over images itself: ready_for()
 #endif
   io.UserData = gui.get();
   gui->set_look();
@@ -148,7 +148,7 @@ Gui::~Gui() {
 
 bool Gui::ready_for(const KeyEvent& event) const {
   const bool changed = std::ranges::find(changed_, event.key) != changed_.end();
-  // A modifier that was tapped with a click is down in the picture that sees the click.
+  // A modifier that was tapped with a click is down in the image that sees the click.
   if (event.key >= GLFW_KEY_LEFT_SHIFT) return !changed;
   return !takes_keyboard() || (!changed && (!edited_ || event.action == GLFW_RELEASE));
 }
@@ -170,7 +170,7 @@ void Gui::key(const KeyEvent& event) {
 void Gui::mouse_button(int button, int action) {
   if (button < 0 || button >= 5) return;
   held_[button] = action != GLFW_RELEASE;
-  // A click that came and went between two pictures is still seen by one of them.
+  // A click that came and went between two images is still seen by one of them.
   pressed_[button] = pressed_[button] || held_[button];
 }
 
@@ -185,7 +185,7 @@ void Gui::scroll(double dx, double dy) {
 }
 
 bool Gui::takes_keyboard() const {
-  // A field that the last picture opened or closed counts already.
+  // A field that the last image opened or closed counts already.
   return list_is_open() ||
          (ImGui::IsAnyItemActive() && ImGui::GetCurrentContext()->WantTextInputNextFrame == 1);
 }
@@ -236,7 +236,7 @@ void Gui::begin(const WindowSize& size, double dt) {
 void Gui::end() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (watcher_) watcher_->end_of_picture();
+  if (watcher_) watcher_->end_of_image();
 }
 
 Box Gui::last_item() {
@@ -252,7 +252,7 @@ bool Gui::explain(std::string_view text, std::string_view keys) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
   const double now = ImGui::GetTime();
-  // Gone for a picture, or on another widget: it begins again.
+  // Gone for an image, or on another widget: it begins again.
   const bool stays =
       rested_on_ == last_item() && rested_seen_ >= now - 1.5 * static_cast<double>(io.DeltaTime);
   rested_on_ = last_item();

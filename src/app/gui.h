@@ -1,5 +1,5 @@
 #pragma once
-// Dear ImGui's surroundings: context, font, colours, and input as it comes from the window's callbacks.
+// Dear ImGui's surroundings: context, font, colors, and input as it comes from the window's callbacks.
 #include <fmt/format.h>
 
 #include <functional>
@@ -29,8 +29,8 @@ struct WindowServices {
 /// A place in the window [window units from the left and the top].
 struct Box {
   double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
-  double centre_x() const { return 0.5 * (left + right); }
-  double centre_y() const { return 0.5 * (top + bottom); }
+  double center_x() const { return 0.5 * (left + right); }
+  double center_y() const { return 0.5 * (top + bottom); }
   friend bool operator==(const Box&, const Box&) = default;
   bool contains(double x, double y) const { return x >= left && x < right && y >= top && y < bottom; }
 };
@@ -42,7 +42,7 @@ struct WindowSize {
   double pixels_per_unit() const { return static_cast<double>(pixel_width) / width; }
 };
 
-/// Sees the widgets of each picture as they are made: for tests and tools.
+/// Sees the widgets of each image as they are made: for tests and tools.
 class WidgetWatcher {
  public:
   virtual ~WidgetWatcher() = default;
@@ -50,8 +50,8 @@ class WidgetWatcher {
   virtual void widget(const std::string& name, const Box& box) = 0;
   /// What the tooltip of the widget in that box says, shown or not.
   virtual void tooltip(const Box& box, const std::string& text) = 0;
-  /// All widgets of a picture were made.
-  virtual void end_of_picture() = 0;
+  /// All widgets of an image were made.
+  virtual void end_of_image() = 0;
 };
 
 /// A key that went down, repeats or came up, or a character that was typed.
@@ -74,8 +74,8 @@ class Gui {
 
   // ---- events; keys, buttons, actions and modifiers as GLFW names them ----
   void key(const KeyEvent& event);
-  /// Whether the picture to come can take that key in addition to those it has: one that was pressed and let
-  /// go of between two pictures would be lost, and of characters and keys that edit the order.
+  /// Whether the image to come can take that key in addition to those it has: one that was pressed and let
+  /// go of between two images would be lost, and of characters and keys that edit the order.
   bool ready_for(const KeyEvent& event) const;
   void mouse_button(int button, int action);
   void cursor(double x, double y);
@@ -86,7 +86,7 @@ class Gui {
   static bool list_is_open();
   bool takes_mouse() const;
 
-  /// Begins the panels of a picture of a window that is not empty, `dt` ≥ 0 after the last [s].
+  /// Begins the panels of an image of a window that is not empty, `dt` ≥ 0 after the last [s].
   void begin(const WindowSize& size, double dt);
   /// Draws them into the current framebuffer.
   void end();
@@ -95,10 +95,10 @@ class Gui {
   double scale() const { return display_scale_ * text_size_; }
   /// Another size of text and panels, a factor > 0 on the display's; takes effect with the next begin().
   void set_text_size(double size) { wanted_text_size_ = size; }
-  /// The picture that is made shows something under way: the next one will differ without an event.
+  /// The image that is made shows something under way: the next one will differ without an event.
   void keep_awake() { awake_ = true; }
   bool awake() const { return awake_; }
-  /// Where the widgets stay that the last picture had there, although rows are added above [window units].
+  /// Where the widgets stay that the last image had there, although rows are added above [window units].
   std::optional<float> held_y;
   /// Three times as tall as the text, for figures and letters alone.
   ImFont* large_font() const { return large_font_; }
@@ -134,7 +134,7 @@ class Gui {
   ImFont* large_font_ = nullptr;
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool pressed_[5] = {}, held_[5] = {};
-  std::vector<int> changed_;  // keys that went down or came up since the last picture
+  std::vector<int> changed_;  // keys that went down or came up since the last image
   bool awake_ = false;
   bool edited_ = false;                            // one that went down edits text
   Box rested_on_;                                  // the widget under the mouse

@@ -25,7 +25,7 @@ void Hands::throw_ball(const Ray& sight) {
 }
 
 void Hands::throw_many() {
-  // A sunflower's seeds: spread evenly over the middle of the picture, side by side where they start.
+  // A sunflower's seeds: spread evenly over the middle of the image, side by side where they start.
   constexpr int many = 12;
   constexpr double golden_angle = 2.399963229728653;
   const double width = view_.width(), height = view_.height();

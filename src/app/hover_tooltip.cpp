@@ -56,7 +56,7 @@ Box particle_readout(const Gui& gui, const PlaybackSession& simulation, const Ho
   const double right = view.left + static_cast<double>(gap + (before ? before->Size.x : 0.0f));
   double bottom = view.bottom;
   for (const Box& box : taken)
-    if (box.left < right && box.bottom > view.centre_y()) bottom = std::min(bottom, box.top);
+    if (box.left < right && box.bottom > view.center_y()) bottom = std::min(bottom, box.top);
   ImGui::SetNextWindowPos({static_cast<float>(view.left) + gap, static_cast<float>(bottom) - gap},
                           ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::SetNextWindowBgAlpha(0.72f);
@@ -95,35 +95,35 @@ Box particle_readout(const Gui& gui, const PlaybackSession& simulation, const Ho
 }
 
 void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& h, const View& view,
-               const Box& picture) {
+               const Box& image) {
   if (!h.ball) return;
-  const Camera camera(view.seen(), static_cast<int>(picture.right - picture.left),
-                      static_cast<int>(picture.bottom - picture.top));
+  const Camera camera(view.seen(), static_cast<int>(image.right - image.left),
+                      static_cast<int>(image.bottom - image.top));
   const glm::mat4 through = camera.projection() * camera.view();
   const auto place = [&](const Vec3& x) -> std::optional<ImVec2> {
     const glm::vec4 p = through * glm::vec4(to_glm(x), 1.0f);
     if (!(p.w > 0.0f)) return std::nullopt;
     return ImVec2(
-        static_cast<float>(picture.left) + 0.5f * (1.0f + p.x / p.w) * static_cast<float>(camera.width()),
-        static_cast<float>(picture.top) + 0.5f * (1.0f - p.y / p.w) * static_cast<float>(camera.height()));
+        static_cast<float>(image.left) + 0.5f * (1.0f + p.x / p.w) * static_cast<float>(camera.width()),
+        static_cast<float>(image.top) + 0.5f * (1.0f - p.y / p.w) * static_cast<float>(camera.height()));
   };
-  const auto centre = place(h.position);
-  if (!centre) return;
+  const auto center = place(h.position);
+  if (!center) return;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const auto unit = static_cast<float>(gui.scale());
   constexpr ImU32 bright = IM_COL32(255, 255, 255, 235), dark = IM_COL32(20, 24, 28, 150);
-  draw.PushClipRect({static_cast<float>(picture.left), static_cast<float>(picture.top)},
-                    {static_cast<float>(picture.right), static_cast<float>(picture.bottom)});
+  draw.PushClipRect({static_cast<float>(image.left), static_cast<float>(image.top)},
+                    {static_cast<float>(image.right), static_cast<float>(image.bottom)});
   // A sphere is seen under the angle whose sine is R/distance.
   const double away = length(h.position - view.seen().position), sine = std::min(h.radius / away, 0.99);
   const auto radius =
       static_cast<float>(0.5 * camera.height() * static_cast<double>(camera.projection()[1][1]) * sine /
                          std::sqrt(1.0 - sine * sine));
-  draw.AddCircle(*centre, radius + 3.0f * unit, dark, 0, 4.0f * unit);
-  draw.AddCircle(*centre, radius + 3.0f * unit, bright, 0, 2.0f * unit);
+  draw.AddCircle(*center, radius + 3.0f * unit, dark, 0, 4.0f * unit);
+  draw.AddCircle(*center, radius + 3.0f * unit, bright, 0, 2.0f * unit);
   if (const auto anchor = hand && hand->ball ? place(hand->anchor) : std::nullopt) {
-    draw.AddLine(*centre, *anchor, dark, 5.0f * unit);
-    draw.AddLine(*centre, *anchor, bright, 2.5f * unit);
+    draw.AddLine(*center, *anchor, dark, 5.0f * unit);
+    draw.AddLine(*center, *anchor, bright, 2.5f * unit);
     draw.AddCircleFilled(*anchor, 5.0f * unit, bright);
   }
   draw.PopClipRect();

@@ -53,7 +53,7 @@ Json json_of(const KeptState& s) {
                {"layouts", s.layout.left()},
                {"pace", paces[static_cast<std::size_t>(s.pace)]},
                {"speed", s.speed},
-               {"film", {{"format", s.film_format->name}, {"fps", s.film_fps}, {"text", s.film_text}}},
+               {"video", {{"format", s.video_format->name}, {"fps", s.video_fps}, {"text", s.video_text}}},
                {"greeted", s.greeted},
                {"cameras", s.cameras}};
   if (!s.window) return json;
@@ -103,10 +103,10 @@ KeptState state_of(const Json& json) {
   s.layout.restore(row, legal(json.value("layout", row.at_first())), std::move(left));
   s.pace = json.value("pace", "") == paces[0] ? Pace::steps_per_frame : Pace::real_time;
   s.speed = std::clamp(json.value("speed", s.speed), slowest_speed, fastest_speed);
-  const Json film = json.value("film", Json::object());
-  if (const auto* const format = find_film_format(film.value("format", ""))) s.film_format = format;
-  s.film_fps = std::clamp(film.value("fps", s.film_fps), 1.0, s.film_format->most_fps);
-  s.film_text = film.value("text", s.film_text);
+  const Json video = json.value("video", Json::object());
+  if (const auto* const format = find_video_format(video.value("format", ""))) s.video_format = format;
+  s.video_fps = std::clamp(video.value("fps", s.video_fps), 1.0, s.video_format->most_fps);
+  s.video_text = video.value("text", s.video_text);
   s.greeted = json.value("greeted", s.greeted);
   for (const KeptCamera& kept : json.value("cameras", s.cameras)) {
     if (is_legal(kept.camera)) keep_camera(s.cameras, kept.scene, kept.camera);
@@ -140,11 +140,30 @@ std::string to_text(const KeptState& state) {
   return json_of(state).dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
+namespace {
+
+/// Gives the video's settings and layout the names that they have; those before 0.3 are accepted until 0.4.
+void rename_former(Json& json) {
+  const auto rename = [](Json& of) {
+    const auto former = of.find("film");
+    if (former == of.end()) return;
+    of["video"] = *former;
+    of.erase("film");
+  };
+  if (!json.is_object()) return;
+  rename(json);
+  if (json.contains("layouts")) rename(json["layouts"]);
+  if (json.value("layout_name", Json()) == "film") json["layout_name"] = "video";
+}
+
+}  // namespace
+
 Result<KeptState> read_kept_state(const std::string& text) {
   // What nests deeper than anything that is written is passed over: copies of it would take the stack.
   const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth < 8; };
   try {
-    const Json found = Json::parse(text, shallow);
+    Json found = Json::parse(text, shallow);
+    rename_former(found);
     if (found.value("version", 0) != version)
       return fail(ErrorCode::io, "it has no \"version\": {}", version);
     KeptState state = state_of(found);

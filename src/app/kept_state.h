@@ -8,7 +8,7 @@
 #include "app/layouts.h"
 #include "aspic/scene.h"
 #include "base/result.h"
-#include "io/film_format.h"
+#include "io/video_format.h"
 #include "playback/pacer.h"
 
 namespace aspic::app {
@@ -32,9 +32,9 @@ struct KeptState {
   Layouts layout;
   Pace pace = Pace::real_time;
   double speed = 1.0;
-  const FilmFormat* film_format = &film_formats().front();
-  double film_fps = 60.0;
-  bool film_text = false;
+  const VideoFormat* video_format = &video_formats().front();
+  double video_fps = 60.0;
+  bool video_text = false;
   bool greeted = false;             ///< what the keys are was said
   std::vector<KeptCamera> cameras;  ///< the one last used at the end
   friend bool operator==(const KeptState&, const KeptState&) = default;

@@ -13,7 +13,7 @@ constexpr std::string_view lecture_sections[] = {"Scene", "Simulation", "View", 
 constexpr std::string_view lecture_open[] = {"Energy"};
 constexpr std::string_view lab_open[] = {"Simulation", "Springs",     "Contact",
                                          "Recording",  "Performance", "Energy"};
-constexpr std::string_view film_open[] = {"View", "Recording"};
+constexpr std::string_view video_open[] = {"View", "Recording"};
 
 constexpr LayoutRow rows[] = {
     {.name = window_layouts[0],
@@ -33,9 +33,9 @@ constexpr LayoutRow rows[] = {
      .summary = "For measuring: values of springs and contact, performance, energies and files.",
      .open = lab_open},
     {.name = window_layouts[3],
-     .title = "Film",
+     .title = "Video",
      .summary = "Shows the image alone, as in a video. Keys: Ctrl+R video, Tab panels",
-     .open = film_open,
+     .open = video_open,
      .panels = false,
      .readout = false},
 };

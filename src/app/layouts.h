@@ -19,7 +19,7 @@ struct Layout {
   bool panels = true;                                        ///< visible
   double left_width = side_width, right_width = side_width;  ///< of the panels at text size 1 [window units]
   double text_size = 1.0;                                    ///< factor on the display's own scale
-  bool clock = false;                                        ///< the time in large figures over the picture
+  bool clock = false;                                        ///< the time in large figures over the image
   std::map<std::string, bool> sections;                      ///< open or not, by heading; absent: as at first
   friend bool operator==(const Layout&, const Layout&) = default;
 };
@@ -31,7 +31,7 @@ struct LayoutRow {
   std::span<const std::string_view> sections = {};  ///< that there are; empty: all
   bool panels = true, clock = false;
   double text_size = 1.0, side_width = Layout::side_width;
-  int sides = 2;        ///< panels at the sides of the picture, 1 or 2
+  int sides = 2;        ///< panels at the sides of the image, 1 or 2
   bool readout = true;  ///< describes the thing under the mouse
 
   Layout at_first() const { return {panels, side_width, side_width, text_size, clock, {}}; }

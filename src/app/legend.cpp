@@ -1,4 +1,4 @@
-// What the colours of the picture mean, in window pixels whatever the picture's own.
+// What the colors of the image mean, in window pixels whatever the image's own.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -7,23 +7,23 @@
 #include <utility>
 
 #include "app/panels.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 
 namespace aspic::app {
 namespace {
 
-/// The scale of colours from its lower to its upper end, with its marks below.
+/// The scale of colors from its lower to its upper end, with its marks below.
 void scale_bar(const Legend& legend) {
   static ScaleMap kept = legend.map;
-  static std::vector<std::byte> texels = colour_map_texels(kept);
-  if (std::exchange(kept, legend.map) != legend.map) texels = colour_map_texels(legend.map);
+  static std::vector<std::byte> texels = color_map_texels(kept);
+  if (std::exchange(kept, legend.map) != legend.map) texels = color_map_texels(legend.map);
   const float line = ImGui::GetTextLineHeight(), height = 0.7f * line;
   float marks = 2.0f * line;
   for (const std::string& mark : legend.marks) marks += ImGui::CalcTextSize(mark.c_str()).x;
   const float width = std::max({marks, 12.0f * line, ImGui::CalcTextSize(legend.title.c_str()).x});
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   constexpr int pieces = 64;
-  const auto colour = [](int i) {
+  const auto color = [](int i) {
     const auto at = 4 * static_cast<std::size_t>(i * 255 / pieces);
     const auto channel = [&](std::size_t c) { return std::to_integer<int>(texels[at + c]); };
     return IM_COL32(channel(0), channel(1), channel(2), 255);
@@ -31,7 +31,7 @@ void scale_bar(const Legend& legend) {
   for (int i = 0; i < pieces; ++i) {
     const auto x = [&](int n) { return corner.x + width * static_cast<float>(n) / pieces; };
     ImGui::GetWindowDrawList()->AddRectFilledMultiColor({x(i), corner.y}, {x(i + 1), corner.y + height},
-                                                        colour(i), colour(i + 1), colour(i + 1), colour(i));
+                                                        color(i), color(i + 1), color(i + 1), color(i));
   }
   ImGui::Dummy({width, height});
   const float left = ImGui::GetCursorPosX();
@@ -45,7 +45,7 @@ void scale_bar(const Legend& legend) {
 
 }  // namespace
 
-ImU32 display_colour(const Colour& linear) {
+ImU32 display_color(const Color& linear) {
   std::array<float, 3> c;
   for (std::size_t i = 0; i < 3; ++i)
     c[i] = static_cast<float>(linear_to_srgb(static_cast<double>(linear[i])));
@@ -70,7 +70,7 @@ Box draw_legend(const Gui& gui, const char* name, const Legend& legend, const Bo
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.1f * line},
                                               {at.x + 0.8f * line, at.y + 0.9f * line},
-                                              display_colour(entry.colour), 0.2f * line);
+                                              display_color(entry.color), 0.2f * line);
     ImGui::Dummy({0.8f * line, line});
     ImGui::SameLine();
     ImGui::TextUnformatted(entry.name.c_str());

@@ -43,7 +43,7 @@ int show(const ViewOptions& view) {
   if (kept) options.kept = *kept;
   if (const LayoutRow* const row = find_layout(view.layout)) options.kept.layout.choose(*row);
   const WindowPlace place = options.kept.window.value_or(WindowPlace{1280, 720, std::nullopt});
-  const PictureSize size = view.size.value_or(PictureSize{place.width, place.height});
+  const ImageSize size = view.size.value_or(ImageSize{place.width, place.height});
   auto window = Window::create(size.width, size.height, "Aspic", place.position);
   if (!window) return fail(window.error());
   auto app = App::create((*window)->context(), options, (*window)->content_scale(), (*window)->services());
@@ -60,7 +60,7 @@ int show(const ViewOptions& view) {
     double wait = 0.0;
     do {
       (*window)->poll(wait);
-      wait = std::max((*app)->wait(since_last()), (*window)->picture_interval() - since_last());
+      wait = std::max((*app)->wait(since_last()), (*window)->image_interval() - since_last());
     } while (wait > 0.0 && !(*window)->should_close() && !ended());
     if (ended()) break;
     if (((*window)->should_close() && !(*app)->may_close()) || (*app)->closes())
@@ -78,12 +78,12 @@ int show(const ViewOptions& view) {
       error.reset();
       continue;
     }
-    (*window)->show_picture();
+    (*window)->show_image();
     if ((*app)->title() != title) (*window)->set_title(title = (*app)->title());
   }
   const bool interrupted = guard.interrupted();
   end_requested = true;  // nobody waits for an encoder that has come to a halt
-  for (const std::string& line : (*app)->film.finish()) print_message(line);
+  for (const std::string& line : (*app)->video.finish()) print_message(line);
   (*window)->set_receiver(nullptr);
   if (!error) {
     KeptState left = (*app)->kept_state();

@@ -53,12 +53,12 @@ void remove(SceneControl& scene, Messages& messages, std::size_t i) {
   if (!removed->empty()) scene.tell(fmt::format("Removed {}. {}", printable_line(name), *removed));
 }
 
-/// A sample of the colour in which cells of it are shown.
-void colour_sample(ImU32 colour) {
+/// A sample of the color in which cells of it are shown.
+void color_sample(ImU32 color) {
   const float side = ImGui::GetFrameHeight(), inset = 0.2f * side;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::GetWindowDrawList()->AddRectFilled({at.x + inset, at.y + inset},
-                                            {at.x + side - inset, at.y + side - inset}, colour, 0.15f * side);
+                                            {at.x + side - inset, at.y + side - inset}, color, 0.15f * side);
   ImGui::Dummy({side, side});
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
 }
@@ -70,7 +70,7 @@ bool material_rows(Gui& gui, SceneControl& scene, Messages& messages, std::size_
   const std::size_t count = settings.materials.size();
   const char* const label = "Remove";
   const float width = ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x;
-  colour_sample(material_colour(settings, name));
+  color_sample(material_color(settings, name));
   name_field(gui, scene, messages, i,
              std::max(ImGui::GetContentRegionAvail().x - width - ImGui::GetStyle().ItemSpacing.x, 1.0f));
   ImGui::SameLine();

@@ -16,13 +16,13 @@ namespace aspic::app {
 /// What ends a message by itself.
 enum class Until { dismissed, time, divergence_is_over };
 
-/// A message on top of the picture.
+/// A message on top of the image.
 struct Notice {
   std::string text;
   bool is_error = false;
   Until until = Until::dismissed;
   double left = 0.0;      ///< until it disappears, if time ends it [s]
-  bool greeting = false;  ///< shown at the bottom of the picture until the motion starts
+  bool greeting = false;  ///< shown at the bottom of the image until the motion starts
   double age = 0.0;       ///< [s]
 };
 
@@ -65,7 +65,7 @@ class Messages {
   void divergence_is_over() {
     std::erase_if(notices_, [](const Notice& n) { return n.until == Until::divergence_is_over; });
   }
-  /// Once for each picture, `dt` after the last [s].
+  /// Once for each image, `dt` after the last [s].
   void update(double dt) {
     for (Notice& n : notices_) {
       n.age += dt;

@@ -18,7 +18,7 @@ namespace {
 struct Typing {
   ImGuiID field = 0;         // 0: none
   std::string text, before;  // as it is, and as it was
-  int picture = 0;           // the last that had the field
+  int image = 0;             // the last that had the field
 };
 Typing typing;
 std::optional<std::string> typing_error;
@@ -37,8 +37,8 @@ class SliderTrack {
     const float end = size.x * static_cast<float>(std::clamp(share, 0.0, 1.0));
     draw.AddRectFilled(corner, {corner.x + end, corner.y + size.y},
                        ImGui::GetColorU32(ImGuiCol_SliderGrab, 0.45f), rounding);
-    for (const ImGuiCol colour : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
-      ImGui::PushStyleColor(colour, ImVec4(1.0f, 1.0f, 1.0f, colour == ImGuiCol_FrameBg ? 0.0f : 0.05f));
+    for (const ImGuiCol color : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
+      ImGui::PushStyleColor(color, ImVec4(1.0f, 1.0f, 1.0f, color == ImGuiCol_FrameBg ? 0.0f : 0.05f));
   }
   ~SliderTrack() { ImGui::PopStyleColor(3); }
   SliderTrack(const SliderTrack&) = delete;
@@ -56,16 +56,16 @@ TypedCheck between(double low, double high) {
 
 bool number_field(const char* label, const std::string& shown, double& value, const TypedCheck& check) {
   const ImGuiID id = ImGui::GetID(label);
-  const int picture = ImGui::GetFrameCount();
-  // One that was away for a picture is not typed into any more.
-  if (typing.picture < picture - 1) typing = {};
+  const int image = ImGui::GetFrameCount();
+  // One that was away for an image is not typed into any more.
+  if (typing.image < image - 1) typing = {};
   if (typing.field != id) {
     std::string text = shown;
     ImGui::InputText(label, &text, ImGuiInputTextFlags_AutoSelectAll);
-    if (ImGui::IsItemActive()) typing = {id, text, shown, picture};
+    if (ImGui::IsItemActive()) typing = {id, text, shown, image};
     return false;
   }
-  typing.picture = picture;
+  typing.image = image;
   ImGui::InputText(label, &typing.text, ImGuiInputTextFlags_AutoSelectAll);
   if (ImGui::IsItemActive()) return false;
   const Typing done = std::exchange(typing, {});

@@ -1,4 +1,4 @@
-// What lies over the picture for a while: notices, the page of keys, and the question at closing.
+// What lies over the image for a while: notices, the page of keys, and the question at closing.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -60,14 +60,14 @@ void notice_text(std::string_view text, float width) {
 
 }  // namespace
 
-/// Each as wide as its text needs, one below the other: at the left, or at the right of a film's text, or
+/// Each as wide as its text needs, one below the other: at the left, or at the right of a video's text, or
 /// upwards from below where runs have their names above.
 void notice_panels(const PanelParts& parts, const Box& view) {
   Messages& messages = parts.messages;
   const double scale = parts.gui.scale();
   const double room = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
   if (room < 80.0 * scale) return;
-  const bool right = parts.picture.film && parts.picture.film->text;
+  const bool right = parts.image.video && parts.image.video->text;
   const std::vector<Notice> notices = messages.notices();
   const auto waits = [](const Notice& n) { return n.until == Until::divergence_is_over; };
   const auto of_divergence = std::ranges::find_if(notices, waits);

@@ -23,7 +23,7 @@ class Palette {
   void open();
   void close() { open_ = false; }
   bool is_open() const { return open_; }
-  /// Once for each picture, between Gui::begin and end; sizes in window units.
+  /// Once for each image, between Gui::begin and end; sizes in window units.
   void draw(const PanelParts& parts, double width, double height);
 
  private:
@@ -33,7 +33,7 @@ class Palette {
 
   bool open_ = false, just_opened_ = false;
   bool back_to_query_ = false;  // a value was entered
-  int typed_row_ = -1;          // whose value had the keyboard in the last picture
+  int typed_row_ = -1;          // whose value had the keyboard in the last image
   std::string query_;
   int chosen_ = 0;  // of the hits
 };

@@ -24,24 +24,24 @@ class Panel {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     ImGui::Begin(name, nullptr, fixed | flags);
   }
-  /// Floats over the picture with round corners, where SetNextWindowPos says.
-  Panel(const char* name, double rounding, const ImVec4& colour, ImGuiWindowFlags flags = 0,
+  /// Floats over the image with round corners, where SetNextWindowPos says.
+  Panel(const char* name, double rounding, const ImVec4& color, ImGuiWindowFlags flags = 0,
         ImGuiWindowFlags without = 0)
-      : colours_(1) {
+      : colors_(1) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, static_cast<float>(rounding));
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, colour);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, color);
     ImGui::Begin(name, nullptr, (fixed | flags) & ~without);
   }
   ~Panel() {
     ImGui::End();
-    ImGui::PopStyleColor(colours_);
+    ImGui::PopStyleColor(colors_);
     ImGui::PopStyleVar();
   }
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
 
  private:
-  int colours_ = 0;
+  int colors_ = 0;
 };
 
 }  // namespace aspic::app

@@ -52,24 +52,22 @@ constexpr Heading right_sections[] = {
     {"Energy", [](Parts p) { energy_section(p.gui, p.comparison_view, p.run, p.layout); },
      "Energies and momentum over time."},
     {"View",
-     [](Parts p) {
-       view_section(p.gui, p.scene, p.view.camera, p.picture.range(), p.picture.shadows, p.layout);
-     },
+     [](Parts p) { view_section(p.gui, p.scene, p.view.camera, p.image.range(), p.image.shadows, p.layout); },
      "Bodies, colors, the camera, and the size of text."},
     {"Side by side", [](Parts p) { comparison_section(p.gui, p.scene, p.comparison_view); },
      "Up to three more runs, each with one difference."},
     {"Recording",
      [](Parts p) {
-       recording_section(p.gui, p.scene.editor().source(), p.film);
+       recording_section(p.gui, p.scene.editor().source(), p.video);
        ImGui::Separator();
-       picture_files(p.gui, p.picture.saved);
+       image_files(p.gui, p.image.saved);
        ImGui::Separator();
        state_files(p.gui, p.scene.editor().source(), p.simulation, p.comparison_view, p.messages, p.files);
      },
      "Videos; states, energies and checkpoints as files."},
     {"Stability", [](Parts p) { stability_section(p.gui, p.scene, p.stability); },
      "Stable time steps and stiffnesses, and the place of the scene among them."},
-    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.comparison, p.picture); },
+    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.comparison, p.image); },
      "Speed of simulation and rendering, and the devices used."},
     {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); },
      "A second backend on the same run, and the largest difference."}};
@@ -110,7 +108,7 @@ int longest_edge(const PlaybackSession& s) {
 void status_line(Parts parts, const Box& box) {
   const double scale = parts.gui.scale();
   const PlaybackSession& s = parts.simulation;
-  const Recording* const film = parts.film.recording();
+  const Recording* const video = parts.video.recording();
   const Panel panel("##status", box, at(12.0 * scale, 6.0 * scale), bar);
   const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
   const Comparison& comparison = parts.comparison;
@@ -119,17 +117,17 @@ void status_line(Parts parts, const Box& box) {
                              : comparison.clock().runs() ? "Running"
                                                          : "Paused";
   ImGui::TextColored(s.divergence() ? ImVec4(0.95f, 0.55f, 0.40f, 1.0f) : bright, "%s", motion);
-  const bool software = parts.picture.context().info().is_software && s.present().backend().needs_context;
+  const bool software = parts.image.context().info().is_software && s.present().backend().needs_context;
   std::vector<std::string> facts = {
       fmt::format("t = {:.3f} s", comparison.clock().time()),
       fmt::format("{}{}", s.present().solver().backend(), software ? " (software)" : ""),
       fmt::format("speed ×{:g}", s.pacer().speed()),
   };
-  if (film) facts.insert(facts.begin() + 1, fmt::format("● recording, {:.2f} s", film->seconds()));
+  if (video) facts.insert(facts.begin() + 1, fmt::format("● recording, {:.2f} s", video->seconds()));
   const double factor = comparison.clock().runs() ? comparison.clock().real_time_factor() : 0.0;
   if (factor > 0.0) {
-    const std::string why = film && !film->ready() ? " (waits for the encoder)"
-                            : comparison.clock().setter().pacer().falls_short(factor) && !film
+    const std::string why = video && !video->ready() ? " (waits for the encoder)"
+                            : comparison.clock().setter().pacer().falls_short(factor) && !video
                                 ? " (" + slowness(factor, longest_edge(s)) + ")"
                                 : "";
     facts.push_back(fmt::format("{:.3g} × real time{}", factor, why));
@@ -154,7 +152,7 @@ void status_line(Parts parts, const Box& box) {
   }
 }
 
-/// The bar of the history, under the picture: any step since the start.
+/// The bar of the history, under the image: any step since the start.
 void timeline(Gui& gui, const PlaybackSession& s, ComparisonView& comparison_view, RunControl& run,
               const Box& box) {
   const Comparison& comparison = comparison_view.comparison();
@@ -187,14 +185,14 @@ void timeline(Gui& gui, const PlaybackSession& s, ComparisonView& comparison_vie
   if (moved && last > first && !comparison_view.go_to(now)) run.go_to(now);
 }
 
-/// The buttons of a lesson, large, at the bottom of the picture. Returns the view above them.
+/// The buttons of a lesson, large, at the bottom of the image. Returns the view above them.
 Box action_bar(Parts p, const Box& view) {
   const double scale = p.gui.scale(), gap = 8.0 * scale, pad = 8.0 * scale;
   const double width = std::min(118.0 * scale, (view.right - view.left - 5.0 * gap - 2.0 * pad) / 4.0);
   if (width < 64.0 * scale) return view;
   const double height = 36.0 * scale, top = view.bottom - height - 2.0 * pad - gap;
   const double half = 2.0 * width + 1.5 * gap + pad;
-  ImGui::SetNextWindowPos(at(view.centre_x() - half, top));
+  ImGui::SetNextWindowPos(at(view.center_x() - half, top));
   ImGui::SetNextWindowSize(at(2.0 * half, height + 2.0 * pad));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, at(pad, pad));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, at(gap, gap));
@@ -213,7 +211,7 @@ Box action_bar(Parts p, const Box& view) {
       if (pressed) p.gui.commands().run(command);
     };
     const Comparison& comparison = p.comparison;
-    const bool runs = comparison.clock().runs(), films = p.film.recording() != nullptr;
+    const bool runs = comparison.clock().runs(), videos = p.video.recording() != nullptr;
     ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrabActive));
     large("actions/start", runs ? "Pause" : "Start", "Starts or pauses the motion.", "start or pause",
           !p.simulation.divergence() || comparison.clock().others_go_on());
@@ -226,7 +224,7 @@ Box action_bar(Parts p, const Box& view) {
           "Change the difference under Side by side.",
           "add a run side by side", comparison.count() < most_compared);
     ImGui::SameLine();
-    large("actions/film", films ? "End video" : "Film",
+    large("actions/video", videos ? "End video" : "Video",
           "Starts or ends a video of all runs. Recording sets format and name.", "start or end a video",
           true);
   }
@@ -312,7 +310,7 @@ void draw_panels(const PanelParts& p, double width, double height) {
   p.palette.draw(p, width, height);
   draw_edited_layer(p);
   if (const auto& hovered = p.pointer.hovered())
-    ball_mark(p.gui, p.simulation.hand(), *hovered, p.view, p.picture.shown());
+    ball_mark(p.gui, p.simulation.hand(), *hovered, p.view, p.image.shown());
 }
 
 }  // namespace aspic::app

@@ -21,7 +21,7 @@ namespace {
 
 constexpr ImGuiSliderFlags as_typed = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
 
-/// How fast a drag changes a number for each window unit: lengths by a centimetre, angles by half a degree,
+/// How fast a drag changes a number for each window unit: lengths by a centimeter, angles by half a degree,
 /// others by a two-hundredth of what they are, or of their default if that is more: a drag begins at 0 too.
 float drag_speed(double value, const Parameter& p) {
   if (p.unit == "m") return 0.01f;

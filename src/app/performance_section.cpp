@@ -54,8 +54,8 @@ void pass_times(Gui& gui, GpuSolver& solver) {
 }  // namespace
 
 void performance_section(Gui& gui, PlaybackSession& s, const Comparison& comparison,
-                         const ScenePicture& picture) {
-  const gl::DeviceInfo& device = picture.context().info();
+                         const SceneImage& image) {
+  const gl::DeviceInfo& device = image.context().info();
   // After a divergence of the window's own run, figures of the one that sets the clock.
   const PlaybackSession& setter = comparison.clock().setter();
   const bool runs = comparison.clock().runs();
@@ -71,13 +71,13 @@ void performance_section(Gui& gui, PlaybackSession& s, const Comparison& compari
          "step.");
   figure("Real-time factor", runs ? fmt::format("{:.3g}", comparison.clock().real_time_factor()) : "paused",
          "Simulated seconds per second.");
-  figure("Pictures",
-         picture.at_rest ? fmt::format("at rest, {:.0f} ms", 1e3 * picture.rate.draw_seconds)
-                         : fmt::format("{:.0f}/s, {:.1f} ms each", picture.rate.per_second(),
-                                       1e3 * picture.rate.draw_seconds),
+  figure("Images",
+         image.at_rest ? fmt::format("at rest, {:.0f} ms", 1e3 * image.rate.draw_seconds)
+                       : fmt::format("{:.0f}/s, {:.1f} ms each", image.rate.per_second(),
+                                     1e3 * image.rate.draw_seconds),
          "Window frames per second, and the time of the scene's last one.");
-  if (const FramePolicy* const policy = picture.policy()) {
-    const double share = picture.full_quality ? 1.0 : policy->resolution.share();
+  if (const FramePolicy* const policy = image.policy()) {
+    const double share = image.full_quality ? 1.0 : policy->resolution.share();
     figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * share),
            "A software rasterizer draws. Frames are coarser during motion; still and saved images have full "
            "size.");

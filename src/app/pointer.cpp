@@ -56,7 +56,7 @@ void Pointer::press(int button, int modifiers, bool on_panel) {
     if (button == GLFW_MOUSE_BUTTON_RIGHT) h.ball ? hands_.refuse_pin() : hands_.toggle_pin(h.particle);
     return;
   }
-  if (button == GLFW_MOUSE_BUTTON_LEFT && modifiers == 0) centre_wanted_ = is_double_click();
+  if (button == GLFW_MOUSE_BUTTON_LEFT && modifiers == 0) center_wanted_ = is_double_click();
   drag_button_ = button;
   drag_pans_ = button != GLFW_MOUSE_BUTTON_LEFT || (modifiers & GLFW_MOD_SHIFT) != 0;
 }
@@ -87,7 +87,7 @@ bool Pointer::scroll(double notches, bool on_panel) {
 
 Ray Pointer::sight(bool on_panel) const {
   if (on_panel || !view_.whole.contains(x_, y_))
-    return view_.sight(view_.box.centre_x(), view_.box.centre_y());
+    return view_.sight(view_.box.center_x(), view_.box.center_y());
   return view_.sight(x_, y_);
 }
 
@@ -131,12 +131,12 @@ void Pointer::find_hovered() {
   hovered_.reset();
   if (const auto& hand = simulation_.hand())
     return hand->ball ? describe_ball(hand->particle) : describe(hand->particle);
-  if (!asked_ || !picture_.is_of_model()) return;
-  const PickAnswer answer = picture_.picked();
+  if (!asked_ || !image_.is_of_model()) return;
+  const PickAnswer answer = image_.picked();
   if (answer.request < asked_->first) return;
-  if (centre_wanted_ && answer.request == asked_->last) {
-    centre_wanted_ = false;
-    if (answer.what) centre_on(*answer.what);
+  if (center_wanted_ && answer.request == asked_->last) {
+    center_wanted_ = false;
+    if (answer.what) center_on(*answer.what);
   }
   if (drag_button_ >= 0 || !answer.what) return;
   if (answer.what->kind == PickKind::particle) describe(answer.what->index);
@@ -145,19 +145,19 @@ void Pointer::find_hovered() {
 }
 
 Status Pointer::mark_and_ask(bool on_panel) {
-  if (!picture_.is_of_model()) return {};
+  if (!image_.is_of_model()) return {};
   if (hovered_ && !hovered_->ball) {
-    ASPIC_CHECK(picture_.mark(hovered_->particle));
+    ASPIC_CHECK(image_.mark(hovered_->particle));
   }
-  const bool free = drag_button_ < 0 || centre_wanted_;
-  if (!free || simulation_.hand() || on_panel || !picture_.shown().contains(x_, y_)) {
+  const bool free = drag_button_ < 0 || center_wanted_;
+  if (!free || simulation_.hand() || on_panel || !image_.shown().contains(x_, y_)) {
     asked_.reset();
-    centre_wanted_ = false;
+    center_wanted_ = false;
     return {};
   }
-  if (asked_ && asked_->x == x_ && asked_->y == y_ && asked_->picture == picture_.number()) return {};
-  ASPIC_TRY(const auto number, picture_.request_pick(x_, y_));
-  asked_ = Question{x_, y_, picture_.number(), asked_ ? asked_->first : number, number};
+  if (asked_ && asked_->x == x_ && asked_->y == y_ && asked_->image == image_.number()) return {};
+  ASPIC_TRY(const auto number, image_.request_pick(x_, y_));
+  asked_ = Question{x_, y_, image_.number(), asked_ ? asked_->first : number, number};
   return {};
 }
 
@@ -173,13 +173,13 @@ bool Pointer::is_double_click() {
   return twice;
 }
 
-void Pointer::centre_on(const Picked& picked) {
+void Pointer::center_on(const Picked& picked) {
   const State& state = simulation_.snapshot();
   Vec3 point = picked.point;
   if (picked.kind == PickKind::particle) point = state.position[picked.index];
   if (picked.kind == PickKind::ball && picked.index < state.ball_position.size())
     point = state.ball_position[picked.index];
-  view_.camera.centre(point - view_.offset());
+  view_.camera.center(point - view_.offset());
 }
 
 void Pointer::forget() {

@@ -10,7 +10,7 @@
 
 #include "analysis/body_contact_forces.h"
 #include "app/hands.h"
-#include "app/scene_picture.h"
+#include "app/scene_image.h"
 #include "app/view.h"
 #include "playback/playback_session.h"
 
@@ -33,8 +33,8 @@ struct Hovered {
 class Pointer {
  public:
   /// The references must outlive it.
-  Pointer(const PlaybackSession& simulation, View& view, ScenePicture& picture, Hands& hands)
-      : simulation_(simulation), view_(view), picture_(picture), hands_(hands) {}
+  Pointer(const PlaybackSession& simulation, View& view, SceneImage& image, Hands& hands)
+      : simulation_(simulation), view_(view), image_(image), hands_(hands) {}
 
   // ---- events, as GLFW names them ----
   void press(int button, int modifiers, bool on_panel);
@@ -44,15 +44,15 @@ class Pointer {
   bool scroll(double notches, bool on_panel);
   /// A button that moves the camera is held, or a particle is pulled.
   bool drags() const { return drag_button_ >= 0 || simulation_.hand(); }
-  /// What the mouse points at in its picture; elsewhere, what the middle of the first picture shows.
+  /// What the mouse points at in its image; elsewhere, what the middle of the first image shows.
   Ray sight(bool on_panel) const;
 
-  /// Once for each picture, before it is drawn: finds what is under the mouse by what answers have come.
+  /// Once for each image, before it is drawn: finds what is under the mouse by what answers have come.
   void find_hovered();
   /// After it was shown: marks what was found and asks again. Error: of Renderer.
   Status mark_and_ask(bool on_panel);
   const std::optional<Hovered>& hovered() const { return hovered_; }
-  /// The picture and its answers are gone.
+  /// The image and its answers are gone.
   void forget();
 
   /// Tells the time between clicks [s]; for tests, which do not wait.
@@ -61,23 +61,23 @@ class Pointer {
   };
 
  private:
-  /// What was asked about a place of a picture.
+  /// What was asked about a place of an image.
   struct Question {
     double x = 0.0, y = 0.0;
-    std::uint64_t picture = 0, first = 0, last = 0;  // requests since the mouse came here
+    std::uint64_t image = 0, first = 0, last = 0;  // requests since the mouse came here
   };
   bool is_double_click();
   void describe(std::uint32_t particle);
   void describe_ball(std::uint32_t ball);
-  void centre_on(const Picked& picked);
+  void center_on(const Picked& picked);
 
   const PlaybackSession& simulation_;
   View& view_;
-  ScenePicture& picture_;
+  SceneImage& image_;
   Hands& hands_;
   double x_ = -1.0, y_ = -1.0;  // of the mouse [window units]
   int drag_button_ = -1;
-  bool drag_pans_ = false, centre_wanted_ = false;
+  bool drag_pans_ = false, center_wanted_ = false;
   double pressed_time_ = -1e9, pressed_x_ = 0.0, pressed_y_ = 0.0;  // the last press that was no double one
   std::optional<Hovered> hovered_;
   std::optional<Question> asked_;

@@ -1,4 +1,4 @@
-// The section that films and writes states.
+// The section that records videos and states.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -22,25 +22,25 @@ namespace {
 
 constexpr const char* start_or_end = "start or end a video";
 
-void format_widget(Gui& gui, FilmSettings& film) {
+void format_widget(Gui& gui, VideoSettings& video) {
   label_column("Format");
   std::vector<std::string_view> names, labels;
-  for (const FilmFormat& format : film_formats()) {
+  for (const VideoFormat& format : video_formats()) {
     names.push_back(format.name);
     labels.push_back(format.label);
   }
-  auto index = static_cast<std::size_t>(film.format - film_formats().data());
+  auto index = static_cast<std::size_t>(video.format - video_formats().data());
   if (!choice(gui, "record/format", names, labels, index,
               "Selects a file (mp4, webm and GIF need ffmpeg) or a directory of numbered frames."))
     return;
-  film.format = &film_formats()[index];
-  film.fps = std::min(film.fps, film.format->most_fps);
+  video.format = &video_formats()[index];
+  video.fps = std::min(video.fps, video.format->most_fps);
 }
 
-void rate_widget(Gui& gui, FilmSettings& film) {
-  label_column("Pictures");
-  const double least = 1.0, most = film.format->most_fps;
-  number_drag("##fps", film.fps, 0.2f, least, most, "%.4g a second", ImGuiSliderFlags_AlwaysClamp,
+void rate_widget(Gui& gui, VideoSettings& video) {
+  label_column("Images");
+  const double least = 1.0, most = video.format->most_fps;
+  number_drag("##fps", video.fps, 0.2f, least, most, "%.4g a second", ImGuiSliderFlags_AlwaysClamp,
               between(least, most));
   named(gui, "record/fps",
         fmt::format("Sets the frames per second, 1 … {:g} in this format. Frames are speed/rate seconds of "
@@ -48,21 +48,21 @@ void rate_widget(Gui& gui, FilmSettings& film) {
                     most));
 }
 
-void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
+void name_widget(Gui& gui, const std::string& source, VideoSettings& video) {
   label_column("Name");
   std::array<char, 1024> text = {};
-  film.path.copy(text.data(), text.size() - 1);
-  const std::string hint = free_name(source, film_ending(*film.format));
+  video.path.copy(text.data(), text.size() - 1);
+  const std::string hint = free_name(source, video_ending(*video.format));
   const float room = ImGui::CalcItemWidth() - 2.0f * ImGui::GetStyle().FramePadding.x;
-  if (ImGui::InputTextWithHint("##film", elided_path(hint, room).c_str(), text.data(), text.size()))
-    film.path = text.data();
+  if (ImGui::InputTextWithHint("##video", elided_path(hint, room).c_str(), text.data(), text.size()))
+    video.path = text.data();
   named(gui, "record/path",
         fmt::format("Names the video; if empty, {}. The format sets the extension. Existing files stay.",
                     hint));
 }
 
-/// Whether the film's states are written too, and in which format.
-void states_widget(Gui& gui, FilmSettings& film) {
+/// Whether the video's states are written too, and in which format.
+void states_widget(Gui& gui, VideoSettings& video) {
   label_column("States");
   std::vector<const StateFormat*> formats = {nullptr};
   std::vector<std::string_view> names = {"none"}, labels = {"none"};
@@ -74,10 +74,10 @@ void states_widget(Gui& gui, FilmSettings& film) {
     labels.push_back(format.label);
     help += fmt::format("\n{}: {}.", format.ending, format.label);
   }
-  auto index = static_cast<std::size_t>(std::ranges::find(formats, film.states) - formats.begin());
+  auto index = static_cast<std::size_t>(std::ranges::find(formats, video.states) - formats.begin());
   if (choice(gui, "record/states", names, labels, index,
              help + "\nEnds when the model changes or the run is rewound."))
-    film.states = formats[index];
+    video.states = formats[index];
 }
 
 /// The energies of the plot as a table.
@@ -132,8 +132,8 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
   for (std::size_t i = 0; i < comparison.count(); ++i) {
     const PlaybackSession& run = comparison.run(i);
     const auto& energies = run.samples().energies();
-    // Of several runs what the pictures show, which is of one time.
-    const State& state = comparison.active() ? comparison_view.picture(i).shown_state() : run.snapshot();
+    // Of several runs what the images show, which is of one time.
+    const State& state = comparison.active() ? comparison_view.image(i).shown_state() : run.snapshot();
     const Status written = format.over_time
                                ? write_series(paths[i], overwrite, energies)
                                : write_state(format, paths[i], overwrite, comparison.scene(i), run, state,
@@ -169,8 +169,8 @@ void save_inputs(const std::string& path, Overwrite overwrite, PlaybackSession& 
 
 }  // namespace
 
-void recording_section(Gui& gui, const std::string& source, Film& film) {
-  if (const Recording* const recording = film.recording()) {
+void recording_section(Gui& gui, const std::string& source, Video& video) {
+  if (const Recording* const recording = video.recording()) {
     const VideoOptions& o = recording->options();
     const std::string label = fmt::format("End the video ({:.2f} s)", recording->seconds());
     if (command_button(gui, "record/stop", label.c_str(), "Completes " + o.path + ".", start_or_end, true,
@@ -186,39 +186,39 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
                  "Records the scene, or all runs side by side, in simulated time and at the view's present "
                  "size. A pause of the motion pauses the video.",
                  start_or_end, true, -1.0f);
-  format_widget(gui, film.settings);
-  rate_widget(gui, film.settings);
-  name_widget(gui, source, film.settings);
+  format_widget(gui, video.settings);
+  rate_widget(gui, video.settings);
+  name_widget(gui, source, video.settings);
   label_column("Parameters");
-  check_box(gui, "shown", "record/text", film.settings.text,
+  check_box(gui, "shown", "record/text", video.settings.text,
             "Shows terrain, integrator, time step, springs, time and the color legend.");
   label_column("Page");
-  check_box(gui, "for browsers", "record/page", film.settings.page,
+  check_box(gui, "for browsers", "record/page", video.settings.page,
             "Writes one HTML file to turn and play in browsers. It ends when the model changes or the run is "
             "rewound.");
   label_column("Live page");
-  check_box(gui, "simulates", "record/live", film.settings.live,
+  check_box(gui, "simulates", "record/live", video.settings.live,
             "Writes a page that simulates in the browser and compares bits. It also ends at a mouse pull.");
-  states_widget(gui, film.settings);
-  if (film.completing() > 0) ImGui::TextDisabled("Completing the last video …");
+  states_widget(gui, video.settings);
+  if (video.completing() > 0) ImGui::TextDisabled("Completing the last video …");
 }
 
-void picture_files(Gui& gui, SavedLook& look) {
+void image_files(Gui& gui, SavedLook& look) {
   static constexpr std::string_view names[] = {"1", "2", "4"}, labels[] = {"as the view", "×2", "×4"};
-  command_button(gui, "picture/save", "Save the image", "Saves the image without panels, at full quality.",
+  command_button(gui, "image/save", "Save the image", "Saves the image without panels, at full quality.",
                  "save the image", true, -1.0f);
   label_column("Size");
-  choice(gui, "picture/size", names, labels, look.scale,
+  choice(gui, "image/size", names, labels, look.scale,
          "Sets the pixels of saved images per pixel of the view.");
   label_column("Background");
-  check_box(gui, "clear", "picture/clear", look.clear, "Makes sky and terrain transparent in saved images.");
+  check_box(gui, "clear", "image/clear", look.clear, "Makes sky and terrain transparent in saved images.");
 }
 
 void state_files(Gui& gui, const std::string& source, PlaybackSession& simulation,
                  ComparisonView& comparison_view, Messages& messages, FileDialog& files) {
   const Comparison& comparison = comparison_view.comparison();
   for (const StateFormat& format : state_formats()) {
-    if (format.motion) continue;  // next to films
+    if (format.motion) continue;  // next to videos
     const std::string name = fmt::format("save/{}{}", format.option, format.ending);
     const std::string label = fmt::format("Save {}… ({})", format.option, format.ending);
     std::string help = format.over_time ? "Writes the plotted energies and momentum, a row for each point."
@@ -226,7 +226,7 @@ void state_files(Gui& gui, const std::string& source, PlaybackSession& simulatio
     if (comparison.active())
       help += fmt::format(" Each run has its own: name-1{0}, name-2{0} and so on.", format.ending);
     if (!button(gui, name.c_str(), label.c_str(), help, true, -1.0f)) continue;
-    // The page outlives this picture.
+    // The page outlives this image.
     const auto write = [&format, &simulation, &comparison_view, &messages](const std::string& path,
                                                                            Overwrite overwrite) {
       save(format, path, overwrite, simulation, comparison_view, messages);

@@ -35,7 +35,7 @@ class RunControl {
   /// offered.
   void take_offered_step();
 
-  /// Once for each picture: reports a new divergence.
+  /// Once for each image: reports a new divergence.
   void watch_divergence();
   /// Likewise: says what does not hold where a run starts, and once what comes about on the way.
   void watch_run();

@@ -1,11 +1,11 @@
-// The rows of the section View that set the scale of a colour that shows a number.
+// The rows of the section View that set the scale of a color that shows a number.
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 
 namespace aspic::app {
 namespace {
 
-/// An end of a fixed scale. Ticked, it starts as what the picture has.
+/// An end of a fixed scale. Ticked, it starts as what the image has.
 void edit_end(Gui& gui, SceneControl& scene, std::string_view path, double shown) {
   const Parameter& p = *find_parameter(path);
   const bool absent = !p.get(scene.scene(), 0);
@@ -21,8 +21,8 @@ void edit_end(Gui& gui, SceneControl& scene, std::string_view path, double shown
 
 void scale_rows(Gui& gui, SceneControl& scene, const QuantityRange& shown) {
   const ViewSettings& view = scene.scene().view;
-  if (!has_scale(view.colour)) return;
-  edit(gui, scene, "view.scale.map", 0, {"Colours"});
+  if (!has_scale(view.color)) return;
+  edit(gui, scene, "view.scale.map", 0, {"Colors"});
   edit(gui, scene, "view.scale.range", 0, {"Range"});
   if (view.scale.range == ScaleRange::fixed) {
     edit_end(gui, scene, "view.scale.from", shown[0]);

@@ -67,7 +67,7 @@ void SceneControl::open_inputs(const std::string& path) {
                  10.0);
 }
 
-void SceneControl::open_neighbour(int offset) {
+void SceneControl::open_neighbor(int offset) {
   const std::vector<BuiltinScene> scenes = list_builtin_scenes();
   const auto count = static_cast<int>(scenes.size());
   const auto open_one = std::ranges::find(scenes, editor_.source(), &BuiltinScene::name);

@@ -36,7 +36,7 @@ class SceneControl {
   /// Scene files and checkpoints that were opened or saved, in that order.
   const std::vector<std::string>& files() const { return files_; }
   /// Opens the built-in scene that comes so many places later in the list, which goes round.
-  void open_neighbour(int offset);
+  void open_neighbor(int offset);
   void reload();
   /// The file is the one that is open from then on.
   void save_as(const std::string& path, Overwrite overwrite = Overwrite::refuse);
@@ -65,7 +65,7 @@ class SceneControl {
   /// The simulation gets the constants of the scene as it is, whatever it has now.
   void hand_over() { pending_ = std::max(pending_, Effect::constants); }
 
-  /// Once for each picture, `dt` after the last [s]: looks at the file and hands changes to the simulation.
+  /// Once for each image, `dt` after the last [s]: looks at the file and hands changes to the simulation.
   void update(double dt);
   /// After the simulation's own update: how a change ended. True if it took noticeable time.
   bool finish_change();

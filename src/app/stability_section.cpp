@@ -13,15 +13,15 @@
 namespace aspic::app {
 namespace {
 
-constexpr ImU32 ground = IM_COL32(20, 21, 23, 255), stable_colour = IM_COL32(38, 92, 122, 255),
-                unstable_colour = IM_COL32(128, 72, 30, 255), hatch = IM_COL32(214, 140, 80, 150),
-                unknown_colour = IM_COL32(48, 51, 56, 255), theory = IM_COL32(235, 237, 240, 255),
+constexpr ImU32 ground = IM_COL32(20, 21, 23, 255), stable_color = IM_COL32(38, 92, 122, 255),
+                unstable_color = IM_COL32(128, 72, 30, 255), hatch = IM_COL32(214, 140, 80, 150),
+                unknown_color = IM_COL32(48, 51, 56, 255), theory = IM_COL32(235, 237, 240, 255),
                 words = IM_COL32(160, 165, 172, 255);
 
-/// The centre of a logarithmic axis' cell `index` is at (index + ½)/cells of its length.
-double share(const std::vector<double>& centres, double value) {
-  const double cell = std::log(centres[1] / centres[0]);
-  return (std::log(value / centres[0]) / cell + 0.5) / static_cast<double>(centres.size());
+/// The center of a logarithmic axis' cell `index` is at (index + ½)/cells of its length.
+double share(const std::vector<double>& centers, double value) {
+  const double cell = std::log(centers[1] / centers[0]);
+  return (std::log(value / centers[0]) / cell + 0.5) / static_cast<double>(centers.size());
 }
 
 /// Value with two digits: a cell is wider than what it rounds.
@@ -62,10 +62,10 @@ void draw_cells(ImDrawList& draw, const Place& place) {
     const ImVec2 low = {left + 0.5f, top + 0.5f}, high = {left + width - 0.5f, top + height - 0.5f};
     const Stability cell = map.cells[i];
     draw.AddRectFilled(low, high,
-                       cell == Stability::stable     ? stable_colour
-                       : cell == Stability::unstable ? unstable_colour
-                                                     : unknown_colour);
-    // Told apart without colours too.
+                       cell == Stability::stable     ? stable_color
+                       : cell == Stability::unstable ? unstable_color
+                                                     : unknown_color);
+    // Told apart without colors too.
     if (cell == Stability::unstable) draw.AddLine({low.x, high.y}, {high.x, low.y}, hatch);
   }
 }
@@ -81,13 +81,13 @@ void draw_theory(ImDrawList& draw, const Place& place, float thickness) {
 
 /// The decades of an axis along the bottom (0) or the left (1).
 void draw_decades(ImDrawList& draw, const Place& place, int axis) {
-  const std::vector<double>& centres = axis == 0 ? place.map.steps : place.map.stiffness;
-  const int last = static_cast<int>(std::floor(std::log10(centres.back())));
-  for (int power = static_cast<int>(std::ceil(std::log10(centres.front()))); power <= last; ++power) {
+  const std::vector<double>& centers = axis == 0 ? place.map.steps : place.map.stiffness;
+  const int last = static_cast<int>(std::floor(std::log10(centers.back())));
+  for (int power = static_cast<int>(std::ceil(std::log10(centers.front()))); power <= last; ++power) {
     const double decade = std::pow(10.0, power);
     const std::string text = fmt::format("{:g}", decade);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const float along = static_cast<float>(share(centres, decade));
+    const float along = static_cast<float>(share(centers, decade));
     const ImVec2 at = axis == 0 ? ImVec2(place.corner.x + along * place.size.x - 0.5f * size.x,
                                          place.corner.y + place.size.y + 1.0f)
                                 : ImVec2(place.corner.x - size.x - 5.0f,
@@ -142,7 +142,7 @@ void stability_section(Gui& gui, SceneControl& scenes, StabilityMap& map) {
     ImGui::TextDisabled("   measuring…");
     gui.mark("stability/measuring");
     gui.keep_awake();
-    tooltip("Aspic computes cells in the background; grey cells are pending.");
+    tooltip("Aspic computes cells in the background; gray cells are pending.");
   }
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size = {std::max(60.0f, ImGui::GetContentRegionAvail().x - left), 170.0f * scale};

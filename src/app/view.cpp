@@ -17,20 +17,20 @@ CameraSettings View::seen(const Vec3& offset) const {
   return fitted(moved(camera.shown(), offset), width(), height());
 }
 
-const OtherPicture* View::other_at(double x, double y) const {
+const OtherImage* View::other_at(double x, double y) const {
   const auto found =
-      std::ranges::find_if(others, [&](const OtherPicture& other) { return other.box.contains(x, y); });
+      std::ranges::find_if(others, [&](const OtherImage& other) { return other.box.contains(x, y); });
   return found == others.end() ? nullptr : &*found;
 }
 
 std::array<double, 2> View::within(double x, double y) const {
-  const OtherPicture* const other = other_at(x, y);
-  const Box& picture = other ? other->box : box;
-  return {x - picture.left, y - picture.top};
+  const OtherImage* const other = other_at(x, y);
+  const Box& image = other ? other->box : box;
+  return {x - image.left, y - image.top};
 }
 
 Ray View::sight(double x, double y) const {
-  const OtherPicture* const other = other_at(x, y);
+  const OtherImage* const other = other_at(x, y);
   const auto [right, down] = within(x, y);
   return lens(other ? other->offset : offset_).ray_through(right, down);
 }

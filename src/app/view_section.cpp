@@ -1,4 +1,4 @@
-// The section of the picture: the things drawn, the camera, and the size of text.
+// The section of the image: the things drawn, the camera, and the size of text.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -154,7 +154,7 @@ std::vector<std::string> followed_names(const Scene& scene) {
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const QuantityRange& shown,
                   bool& shadows, Layouts& layout) {
   edit(gui, scene, "view.draw");
-  edit(gui, scene, "view.colour", 0, {"Colour by"});
+  edit(gui, scene, "view.color", 0, {"Color by"});
   scale_rows(gui, scene, shown);
   cut_widgets(gui, scene, camera.goal());
   layout_widgets(gui, layout);

@@ -96,7 +96,7 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   if (!glfwInit())
     return fail(ErrorCode::no_device, "Cannot open a window: {} ({}). {}", no_display(), last_error(),
                 instead);
-  w->initialised_ = true;
+  w->initialized_ = true;
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -122,8 +122,8 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   glfwShowWindow(w->window_);
   glfwMakeContextCurrent(w->window_);
   // Under Wayland a swap that waits for the display waits for as long as the window is hidden.
-  if (!position_of(w->window_)) w->picture_interval_ = refresh_interval();
-  glfwSwapInterval(w->picture_interval_ > 0.0 ? 0 : 1);
+  if (!position_of(w->window_)) w->image_interval_ = refresh_interval();
+  glfwSwapInterval(w->image_interval_ > 0.0 ? 0 : 1);
   auto context = gl::Context::adopt_current(
       glfwGetProcAddress, {[window = w->window_] { return glfwGetCurrentContext() == window; },
                            [window = w->window_] { glfwMakeContextCurrent(window); }});
@@ -136,7 +136,7 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
 Window::~Window() {
   context_.reset();
   if (window_) glfwDestroyWindow(window_);
-  if (initialised_) glfwTerminate();
+  if (initialized_) glfwTerminate();
 }
 
 void Window::connect() {
@@ -226,7 +226,7 @@ void Window::poll(double wait) {
     glfwPollEvents();
 }
 
-void Window::show_picture() {
+void Window::show_image() {
   glfwSwapBuffers(window_);
 }
 

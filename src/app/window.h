@@ -56,9 +56,9 @@ class Window {
   void set_title(const std::string& title);
   /// Hands over events; waits for one up to `wait` seconds where that is above 0.
   void poll(double wait);
-  void show_picture();
-  /// How far pictures are apart at least [s]; 0: show_picture() waits for the display.
-  double picture_interval() const { return picture_interval_; }
+  void show_image();
+  /// How far images are apart at least [s]; 0: show_image() waits for the display.
+  double image_interval() const { return image_interval_; }
   bool full_screen() const { return full_screen_; }
   void toggle_full_screen();
 
@@ -66,8 +66,8 @@ class Window {
   Window() = default;
   void connect();
   GLFWwindow* window_ = nullptr;
-  bool initialised_ = false, full_screen_ = false;
-  double picture_interval_ = 0.0;
+  bool initialized_ = false, full_screen_ = false;
+  double image_interval_ = 0.0;
   WindowPlace place_;  // to come back to from full screen
   std::shared_ptr<gl::Context> context_;
   EventReceiver* receiver_ = nullptr;

@@ -1,6 +1,6 @@
 #pragma once
 // Text for people: that from outside made fit for a terminal, where nothing in it can move the cursor, change
-// colours or hide other text.
+// colors or hide other text.
 #include <cstddef>
 #include <cstdint>
 #include <string>

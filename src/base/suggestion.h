@@ -8,7 +8,7 @@
 namespace aspic::diagnostics {
 
 /// Damerau–Levenshtein distance in its restricted form (optimal string alignment): insertions, deletions,
-/// substitutions and swaps of neighbours. Damerau, Communications of the ACM 7 (1964); Levenshtein (1966).
+/// substitutions and swaps of neighbors. Damerau, Communications of the ACM 7 (1964); Levenshtein (1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate that was probably meant, or empty: one that differs by a letter; else one that the word

@@ -34,10 +34,10 @@ constexpr RemedyRow row_of(RemedyKind kind) {
               "pass speed={0} or more"};
     case RemedyKind::shorten:
       return {"simulate less time", "choose a shorter --duration", "record less time", "simulate less time"};
-    case RemedyKind::picture_size:
+    case RemedyKind::image_size:
       return {"set size to {{{0}, {1}}}", "use --size {0}x{1}", "", "pass width={0}, height={1}"};
-    case RemedyKind::write_pictures:
-      return {"write numbered frames instead (PictureOutput::frames)",
+    case RemedyKind::write_images:
+      return {"write numbered frames instead (ImageOutput::frames)",
               "write numbered frames instead (--frames)",
               "write numbered frames instead (Format under Recording)", "name a directory instead"};
     case RemedyKind::resume:

@@ -32,12 +32,12 @@ std::vector<double> times_of(double duration, double interval) {
 
 /// Bytes of a record, in double precision: there may be too many to count.
 double bytes_of(double instances, double rows, std::size_t particles, const BatchQuantities& quantities) {
-  const int numbers = 1 + (quantities.centre_of_mass ? 3 : 0) + (quantities.momentum ? 3 : 0) +
+  const int numbers = 1 + (quantities.center_of_mass ? 3 : 0) + (quantities.momentum ? 3 : 0) +
                       (quantities.energies ? 3 : 0) + (quantities.actuator_work ? 1 : 0);
   return instances * rows * (8.0 * numbers + 12.0 * static_cast<double>(particles)) + 8.0 * rows;
 }
 
-Vec3 centre_of_mass(const Model& model, const State& state) {
+Vec3 center_of_mass(const Model& model, const State& state) {
   Vec3 sum;
   double all = 0.0;
   for (std::size_t i = 0; i < state.position.size(); ++i) {
@@ -90,7 +90,7 @@ Result<Recording> Recording::plan(const std::vector<SharedModel>& models, double
     record.times = plan.times_.size();
     const std::size_t rows = record.instances * record.times;
     record.time.resize(rows);
-    if (quantities.centre_of_mass) record.centre_of_mass.resize(3 * rows);
+    if (quantities.center_of_mass) record.center_of_mass.resize(3 * rows);
     if (quantities.momentum) record.momentum.resize(3 * rows);
     if (quantities.energies) {
       record.energy.resize(3 * rows);
@@ -148,7 +148,7 @@ void Recording::write(const Unit& unit, std::size_t slot, std::size_t instance, 
         view[0]);
   }
   const bool last = row + 1 == record_.times;
-  if (!last && !quantities_.centre_of_mass && !quantities_.momentum && !quantities_.energies &&
+  if (!last && !quantities_.center_of_mass && !quantities_.momentum && !quantities_.energies &&
       !quantities_.actuator_work)
     return;
   State state;
@@ -157,9 +157,9 @@ void Recording::write(const Unit& unit, std::size_t slot, std::size_t instance, 
   resize(state, model->particle_count(), model->ball_count());
   const StateView to = view_of(state);
   for (std::size_t n = 0; n < view.size(); ++n) copy_vectors(view[n], to[n]);
-  if (quantities_.centre_of_mass) {
-    const Vec3 centre = centre_of_mass(*model, state);
-    put(record_.centre_of_mass, centre.x, centre.y, centre.z);
+  if (quantities_.center_of_mass) {
+    const Vec3 center = center_of_mass(*model, state);
+    put(record_.center_of_mass, center.x, center.y, center.z);
   }
   if (quantities_.momentum || quantities_.energies) {
     const Measures figures = quantities_.energies ? meters_[instance].measure(state, unit.inputs(slot))

@@ -30,7 +30,7 @@ struct PeerCheck {
   std::uint64_t steps = 0;
   double deviation = 0.0;               ///< largest, from the reference in double precision [m]
   double bound = 0.0;                   ///< largest allowed [m]
-  double fall = 0.0, fall_bound = 0.0;  ///< what the centre's fall is off by, and may be [m]
+  double fall = 0.0, fall_bound = 0.0;  ///< what the center's fall is off by, and may be [m]
 };
 
 /// A row of the table: a backend or a peer with a scene of one size and integrator, run several times.
@@ -144,7 +144,7 @@ Json origin_json();
 /// A value below which a share q of the samples lies, 0 (least) … 1, linear between two; not empty.
 double quantile_of(std::vector<double> samples, double q);
 
-/// `aspic bench --pictures`. Errors: as measure_frames.
-Status execute_pictures(const BenchOptions& options, const Scene& scene, const InterruptGuard& interrupt);
+/// `aspic bench --images`. Errors: as measure_frames.
+Status execute_images(const BenchOptions& options, const Scene& scene, const InterruptGuard& interrupt);
 
 }  // namespace aspic::cli

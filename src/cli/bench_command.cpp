@@ -173,7 +173,7 @@ Status execute(const BenchOptions& options) {
 Status execute_bench(const BenchOptions& options, const InviteGuests& invite) {
   const InterruptGuard interrupt;
   ASPIC_TRY(const auto loaded, load_scene(options.scene, options.overrides, by_set));
-  if (options.pictures) return execute_pictures(options, loaded, interrupt);
+  if (options.images) return execute_images(options, loaded, interrupt);
   BenchReport report = {loaded.name, options.repeats, options.warm_up, false, {}};
   const Status measured = measure_all(options, loaded, interrupt, invite, report);
   report.interrupted = !measured && measured.error().code == ErrorCode::interrupted;

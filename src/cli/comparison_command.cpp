@@ -47,7 +47,7 @@ using HeadlessVariants = std::vector<std::unique_ptr<HeadlessVariant>>;
 Status refuse_what_needs_one_run(const RunOptions& options) {
   if (!options.resume_file.empty())
     return fail(ErrorCode::usage, "--variant starts every run at the scene's start: omit --resume.");
-  if (!options.pictures.page_live.empty())
+  if (!options.images.page_live.empty())
     return fail(ErrorCode::usage,
                 "a live page has one run: omit --variant, or write --html instead of --html-live.");
   for (const StateOutput& output : options.outputs)
@@ -59,7 +59,7 @@ Status refuse_what_needs_one_run(const RunOptions& options) {
   return {};
 }
 
-/// The files of a run's states; those of pictures belong to all runs.
+/// The files of a run's states; those of images belong to all runs.
 Result<RunFiles> open_files(const RunOptions& options, const Scene& scene, const InputLog& inputs,
                             std::size_t number, Overwrite overwrite) {
   std::vector<StateOutput> outputs = options.outputs;
@@ -96,11 +96,11 @@ Result<HeadlessVariants> make_variants(const RunOptions& options, const std::vec
   return variants;
 }
 
-/// A context for all that needs one: pictures, and backends that may take it. Null where nothing must have
+/// A context for all that needs one: images, and backends that may take it. Null where nothing must have
 /// one and there is none.
 Result<std::shared_ptr<gl::Context>> shared_context(const RunOptions& options,
                                                     const HeadlessVariants& variants) {
-  const bool needed = options.pictures.any() || std::ranges::any_of(variants, [](const auto& variant) {
+  const bool needed = options.images.any() || std::ranges::any_of(variants, [](const auto& variant) {
                         const BackendRow* const row = variant->run.backend.row;
                         return row && row->needs_context;
                       });
@@ -144,14 +144,14 @@ class ComparisonPage {
  public:
   /// Opens it, where one is asked for.
   static Result<std::optional<ComparisonPage>> open(const RunOptions& options, Overwrite overwrite) {
-    if (options.pictures.page.empty()) return std::optional<ComparisonPage>();
-    ASPIC_TRY(auto writer, page::PageWriter::create(options.pictures.page, overwrite));
+    if (options.images.page.empty()) return std::optional<ComparisonPage>();
+    ASPIC_TRY(auto writer, page::PageWriter::create(options.images.page, overwrite));
     return std::optional<ComparisonPage>(ComparisonPage(std::move(writer)));
   }
-  /// Errors: usage, more pictures of all runs than a page holds; io.
+  /// Errors: usage, more images of all runs than a page holds; io.
   Status begin(const RunOptions& options, const HeadlessVariants& variants,
-               const std::vector<RecordedRun>& runs, std::uint64_t pictures) {
-    const double fps = frames_per_second(options.pictures);
+               const std::vector<RecordedRun>& runs, std::uint64_t images) {
+    const double fps = frames_per_second(options.images);
     std::vector<page::PageRun> paged;
     std::uint64_t positions = 0;
     for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -159,8 +159,8 @@ class ComparisonPage {
       paged.push_back({&variants[i]->run.scene, &model, runs[i].name});
       positions += model.particle_count() + model.ball_count();
     }
-    ASPIC_CHECK(page::check_page(pictures, positions, fps));
-    return writer_.begin({fps, options.pictures.speed, command_of(options.words)}, paged);
+    ASPIC_CHECK(page::check_page(images, positions, fps));
+    return writer_.begin({fps, options.images.speed, command_of(options.words)}, paged);
   }
   /// Where all runs are now. Error: of a run's device; one of the page is failures().
   Status add(const HeadlessVariants& variants) {
@@ -207,12 +207,12 @@ class ComparisonPage {
   std::vector<Error> failures_;
 };
 
-/// Picture by picture: a run that diverged stands still while the others go on, and all do without pictures
-/// if those fail and there are other files. The result says whether all pictures were drawn.
+/// Image by image: a run that diverged stands still while the others go on, and all do without images
+/// if those fail and there are other files. The result says whether all images were drawn.
 Result<Status> simulate(HeadlessVariants& variants, const CommonClock& clock, ComparisonRecorder* recorder,
                         ComparisonPage* page, const InterruptGuard& interrupt) {
   for (const auto& m : variants) ASPIC_CHECK(m->headless->begin());
-  ProgressBar bar(clock.count(), "picture");
+  ProgressBar bar(clock.count(), "image");
   bool interrupted = false;
   Losses losses, losses_of_page;
   for (std::uint64_t frame = 0; frame < clock.count() && !interrupted; ++frame) {
@@ -233,8 +233,8 @@ Result<Status> simulate(HeadlessVariants& variants, const CommonClock& clock, Co
     if (recorder) {
       const bool files = (page && page->failures().empty()) ||
                          std::ranges::any_of(variants, [](const auto& m) { return m->files.any_left(); });
-      ASPIC_CHECK(losses.after_picture(*recorder, draw(*recorder, variants), files));
-      if (!losses.pictured()) recorder = nullptr;
+      ASPIC_CHECK(losses.after_image(*recorder, draw(*recorder, variants), files));
+      if (!losses.rendered()) recorder = nullptr;
     }
     bar.update(frame + 1);
     interrupted = interrupted || interrupt.interrupted();
@@ -245,11 +245,11 @@ Result<Status> simulate(HeadlessVariants& variants, const CommonClock& clock, Co
     ASPIC_TRY(m->outcome, m->headless->outcome(m->last_step));
     m->outcome->interrupted = interrupted;
   }
-  return losses.pictured();
+  return losses.rendered();
 }
 
 Status print_summary(const RunOptions& options, const HeadlessVariants& variants,
-                     const std::vector<std::string>& pictures, const ComparisonRecorder* recorder) {
+                     const std::vector<std::string>& images, const ComparisonRecorder* recorder) {
   if (options.json) {
     Json runs = Json::array();
     for (const auto& m : variants) {
@@ -258,7 +258,7 @@ Status print_summary(const RunOptions& options, const HeadlessVariants& variants
       runs.push_back(std::move(run));
     }
     const Json times = recorder ? to_json(recorder->times(), recorder->device()) : Json();
-    return print_data(to_text(Json{{"runs", runs}, {"pictures", times}, {"files", pictures}}));
+    return print_data(to_text(Json{{"runs", runs}, {"images", times}, {"files", images}}));
   }
   std::string text;
   for (const auto& m : variants) {
@@ -267,7 +267,7 @@ Status print_summary(const RunOptions& options, const HeadlessVariants& variants
     for (const std::string& file : m->files.written()) text += fmt::format("wrote        {}\n", file);
     text += "\n";
   }
-  for (const std::string& file : pictures) text += fmt::format("wrote        {}\n", file);
+  for (const std::string& file : images) text += fmt::format("wrote        {}\n", file);
   return print_text(text);
 }
 
@@ -285,32 +285,32 @@ Status execute_comparison(const RunOptions& options) {
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
   std::shared_ptr<gl::Context> context;  // outlives the recorder
   ASPIC_TRY(auto variants, make_variants(options, differences, overwrite));
-  ASPIC_CHECK(check_frame_count(options.pictures, variants.front()->model->simulation.timestep, 0,
+  ASPIC_CHECK(check_frame_count(options.images, variants.front()->model->simulation.timestep, 0,
                                 variants.front()->last_step));
-  ASPIC_TRY(auto film, RunFiles::open({}, options.pictures, {}, overwrite));
+  ASPIC_TRY(auto video, RunFiles::open({}, options.images, {}, overwrite));
   ASPIC_TRY(auto page, ComparisonPage::open(options, overwrite));
   ASPIC_TRY(context, shared_context(options, variants));
   ASPIC_CHECK(prepare(variants, differences, context.get(), interrupt));
 
   std::vector<Span> spans;
-  std::vector<RecordedRun> pictured;
+  std::vector<RecordedRun> rendered;
   for (const auto& m : variants) {
     spans.push_back({m->model->simulation.timestep, m->last_step});
-    pictured.push_back({&m->run.scene, &m->backend,
-                        short_name(pictured.size(), differences, m->run.scene, m->backend.variant())});
+    rendered.push_back({&m->run.scene, &m->backend,
+                        short_name(rendered.size(), differences, m->run.scene, m->backend.variant())});
   }
-  const CommonClock clock(std::move(spans), frames_per_second(options.pictures), options.pictures.speed);
-  if (page) ASPIC_CHECK(page->begin(options, variants, pictured, clock.count()));
+  const CommonClock clock(std::move(spans), frames_per_second(options.images), options.images.speed);
+  if (page) ASPIC_CHECK(page->begin(options, variants, rendered, clock.count()));
   std::unique_ptr<ComparisonRecorder> recorder;
-  if (options.pictures.any()) {
-    ASPIC_TRY(recorder, ComparisonRecorder::create(*context, options.pictures, std::move(pictured),
-                                                   film.take_frame_sinks()));
+  if (options.images.any()) {
+    ASPIC_TRY(recorder, ComparisonRecorder::create(*context, options.images, std::move(rendered),
+                                                   video.take_frame_sinks()));
   }
-  ASPIC_TRY(Status pictured_all,
+  ASPIC_TRY(Status rendered_all,
             simulate(variants, clock, recorder.get(), page ? &*page : nullptr, interrupt));
 
   if (page) ASPIC_CHECK(page->finish(variants));
-  // Pictures last: an encoder may keep a run waiting.
+  // Images last: an encoder may keep a run waiting.
   for (const auto& m : variants) {
     Outcome& outcome = *m->outcome;
     const std::string warnings = export_text(outcome.diagnostics);
@@ -321,9 +321,9 @@ Status execute_comparison(const RunOptions& options) {
                            .warnings = warnings});
     outcome.actuator_work = m->files.actuator_work();
   }
-  if (recorder && pictured_all) pictured_all = recorder->finish();
+  if (recorder && rendered_all) rendered_all = recorder->finish();
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
-  if (!pictured_all && lost.empty()) lost.push_back(pictured_all.error());
+  if (!rendered_all && lost.empty()) lost.push_back(rendered_all.error());
   std::vector<std::string> shared = recorder ? recorder->written() : std::vector<std::string>{};
   if (page) {
     lost.insert(lost.end(), page->failures().begin(), page->failures().end());

@@ -10,7 +10,7 @@
 #include "command_line/command_facts.h"
 #include "command_line/window_layouts.h"
 #include "gpu_solver/force_paths.h"
-#include "io/film_format.h"
+#include "io/video_format.h"
 #include "model/integrator.h"
 #include "report/outline.h"
 #include "report/report.h"
@@ -79,7 +79,7 @@ Offers values_of(const CommandFacts& command, const OptionFacts& option) {
       if (found.empty() || found.back().word != group) found.push_back({group, ""});
     }
   } else if (name == "--frames-format") {
-    for (const FilmFormat& format : film_formats())
+    for (const VideoFormat& format : video_formats())
       if (format.is_directory()) found.push_back({std::string(format.ending.substr(1)), ""});
   } else if (name == "--set" || name == "--view") {
     add_keys(found, name == "--view");

@@ -10,8 +10,8 @@
 #include "gpu/current.h"
 #include "gpu/pixel_ring.h"
 #include "io/frame_schedule.h"
+#include "render/frame_passes.h"
 #include "render/overlay_text.h"
-#include "render/picture_passes.h"
 #include "render/renderer.h"
 #include "run/window_host.h"
 #include "variants/run_length.h"
@@ -48,7 +48,7 @@ void add(std::vector<gl::PassTime>& sums, const std::vector<gl::PassTime>& passe
 class FrameCostMeter {
  public:
   static Result<FrameCostMeter> create(const Scene& scene, const BackendChoice& choice,
-                                       const SharedModel& model, const PictureSize& size) {
+                                       const SharedModel& model, const ImageSize& size) {
     FrameCostMeter m(scene, size);
     ASPIC_TRY(m.backend_, make_backend(choice, model));
     m.context_ = context_of(m.backend_);
@@ -74,7 +74,7 @@ class FrameCostMeter {
     const Stopwatch watch;
     ASPIC_TRY(const auto state, on_device());
     ASPIC_CHECK(draw(state));
-    ring_->submit(renderer_->picture());
+    ring_->submit(renderer_->image());
     ASPIC_CHECK(ring_->take(pixels_));
     cost.seconds.push_back(watch.seconds());
     cost.cpu_seconds.push_back(watch.cpu_seconds());
@@ -96,7 +96,7 @@ class FrameCostMeter {
     if (drawn.empty()) return fail(ErrorCode::no_device, "{} gives no times of passes.", device());
     all.insert(all.end(), drawn.begin(), drawn.end());
     const Stopwatch reading;
-    ring_->submit(renderer_->picture());
+    ring_->submit(renderer_->image());
     ASPIC_CHECK(ring_->take(pixels_));
     all.push_back(reading.pass("pixels to memory"));
     add(sums, all);
@@ -104,7 +104,7 @@ class FrameCostMeter {
   }
 
  private:
-  FrameCostMeter(const Scene& scene, const PictureSize& size) : scene_(&scene), size_(size) {}
+  FrameCostMeter(const Scene& scene, const ImageSize& size) : scene_(&scene), size_(size) {}
 
   Result<DeviceState> on_device() {
     if (const GpuSolver* const gpu = gpu_of(backend_)) return gpu->device_state();
@@ -112,7 +112,7 @@ class FrameCostMeter {
     return renderer_->upload(state);
   }
   Status draw(const DeviceState& state) {
-    PictureOptions options;
+    ImageOptions options;
     options.view = scene_->view;
     const double h = backend_.solver->model().simulation.timestep;
     options.text = overlay_lines(*scene_, static_cast<double>(state.step) * h);
@@ -120,7 +120,7 @@ class FrameCostMeter {
   }
 
   const Scene* scene_;
-  PictureSize size_;
+  ImageSize size_;
   Backend backend_;
   gl::Context* context_ = nullptr;
   std::shared_ptr<gl::Context> own_context_;  // where the backend has none

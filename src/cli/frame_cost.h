@@ -7,14 +7,14 @@
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/pass_profiler.h"
-#include "io/film_format.h"
+#include "io/video_format.h"
 #include "run/backends.h"
 
 namespace aspic::cli {
 
 /// Images to render, and repeats.
 struct FrameCostOptions {
-  PictureSize size;
+  ImageSize size;
   double duration = 1.0;  ///< of each repeat, 60 frames each simulated second [s], > 0
   int repeats = 1;        ///< ≥ 1
   int warm_up = 1;        ///< repeats before them that are not counted, ≥ 0
@@ -26,7 +26,7 @@ struct FrameCost {
   std::vector<double> seconds;      ///< wall-clock time
   std::vector<double> cpu_seconds;  ///< CPU time of all threads of this process
   /// Means over every second frame, which is rendered pass by pass and not counted above: upload of the
-  /// state, the renderer's passes (picture_passes.h), read-back of the pixels.
+  /// state, the renderer's passes (frame_passes.h), read-back of the pixels.
   std::vector<gl::PassTime> passes;
 };
 

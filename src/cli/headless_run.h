@@ -23,7 +23,7 @@ struct Outcome {
   std::optional<Divergence> divergence;
   std::optional<SolveStatistics> solves;  ///< implicit Euler only
   std::optional<double> actuator_work;    ///< over the rows of the series, where there is one [J]
-  Status pictured;                        ///< whether the pictures were completed
+  Status rendered;                        ///< whether the images were completed
   std::vector<Diagnostic> diagnostics;    ///< all that was warned of by a watch
   bool interrupted = false;
   double wall_seconds = 0.0;
@@ -38,24 +38,24 @@ class Losses {
   /// `failures`: all so far. Prints those that are new.
   void tell(const std::vector<Error>& failures);
   /// A recorder has drawn; `drawn`: how that went. Error: it is lost, and `files` have nothing to write
-  /// either. Otherwise pictured() says whether it is still worth calling.
-  template <class PictureRecorder>
-  Status after_picture(PictureRecorder& recorder, const Status& drawn, bool files) {
+  /// either. Otherwise rendered() says whether it is still worth calling.
+  template <class ImageRecorder>
+  Status after_image(ImageRecorder& recorder, const Status& drawn, bool files) {
     std::vector<Error> failures = recorder.failures();
     if (!drawn) {
       if (!files) return drawn;
       recorder.abandon();
       if (failures.empty()) failures.push_back(drawn.error());
-      pictured_ = drawn;
+      rendered_ = drawn;
     }
     tell(failures);
     return {};
   }
-  const Status& pictured() const { return pictured_; }
+  const Status& rendered() const { return rendered_; }
 
  private:
   std::size_t told_ = 0;
-  Status pictured_;
+  Status rendered_;
 };
 
 /// The error of a run that lost outputs, none of them if `failures` is empty; `others`: it has completed

@@ -1,5 +1,5 @@
 // Commands that are separate programs: the window, so that aspic starts on machines without X libraries, and
-// studies, so that a film does not wait for them to compile.
+// studies, so that a video does not wait for them to compile.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -33,7 +33,7 @@ Status execute(const ReportOptions& options) {
   plan.force = options.force;
   plan.jobs = options.jobs;
   ASPIC_TRY(const auto summary, report::write_report(std::move(plan), interrupt));
-  if (!summary.no_pictures.empty()) print_warning("no images: " + summary.no_pictures);
+  if (!summary.no_images.empty()) print_warning("no images: " + summary.no_images);
   if (!summary.no_pdf.empty()) print_message("no PDF: " + summary.no_pdf);
   if (summary.pages && summary.most_pages && *summary.pages > *summary.most_pages)
     print_warning(fmt::format("report.pdf has {} pages; the course accepts at most {}.", *summary.pages,
@@ -43,7 +43,7 @@ Status execute(const ReportOptions& options) {
                                {"data_files", summary.data_files},
                                {"pages", summary.pages ? Json(*summary.pages) : Json()},
                                {"no_pdf", or_null(summary.no_pdf)},
-                               {"no_pictures", or_null(summary.no_pictures)}}));
+                               {"no_images", or_null(summary.no_images)}}));
   }
   std::string text;
   for (const std::string& file : summary.files) {

@@ -111,7 +111,7 @@ Result<InputLog> inputs_of_run(const RunOptions& options, const Start& start, co
               printable_line(options.replay_file), start.state->step, printable_line(options.resume_file));
 }
 
-/// `recorder` is null where no pictures are wanted. A run that loses its pictures continues if it writes
+/// `recorder` is null where no images are wanted. A run that loses its images continues if it writes
 /// anything else.
 Result<Outcome> simulate(HeadlessRun& headless, Recorder* recorder, std::uint64_t last_step,
                          const InterruptGuard& interrupt) {
@@ -119,33 +119,33 @@ Result<Outcome> simulate(HeadlessRun& headless, Recorder* recorder, std::uint64_
   ProgressBar bar(last_step);
   const auto started = Clock::now();
   Losses losses;
-  const auto take_picture = [&]() -> Status {
+  const auto take_image = [&]() -> Status {
     if (!recorder) return {};
     const Status drawn = recorder->reach(headless.solver(), headless.step());
-    ASPIC_CHECK(losses.after_picture(*recorder, drawn, headless.files().any_left()));
-    if (!losses.pictured()) recorder = nullptr;
+    ASPIC_CHECK(losses.after_image(*recorder, drawn, headless.files().any_left()));
+    if (!losses.rendered()) recorder = nullptr;
     return {};
   };
-  ASPIC_CHECK(take_picture());
+  ASPIC_CHECK(take_image());
   while (headless.step() < last_step && !headless.stopped()) {
     const double before = headless.seconds();
     ASPIC_CHECK(headless.advance_to(recorder ? std::min(recorder->next_step(), last_step) : last_step,
                                     interrupt, [&](std::uint64_t step) { bar.update(step); }));
     if (!recorder || headless.stopped()) continue;
     recorder->add_simulation(headless.seconds() - before);
-    ASPIC_CHECK(take_picture());
+    ASPIC_CHECK(take_image());
   }
   ASPIC_TRY(auto outcome, headless.outcome(last_step));
-  outcome.pictured = losses.pictured();
+  outcome.rendered = losses.rendered();
   outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - started).count();
   return outcome;
 }
 
-/// The last pictures, after all other files: an encoder may keep a run waiting.
-void finish_pictures(Recorder& recorder, Solver& solver, Outcome& outcome) {
-  if (!outcome.pictured) return;
+/// The last images, after all other files: an encoder may keep a run waiting.
+void finish_images(Recorder& recorder, Solver& solver, Outcome& outcome) {
+  if (!outcome.rendered) return;
   const auto started = Clock::now();
-  outcome.pictured = recorder.finish(solver, outcome.state.step);
+  outcome.rendered = recorder.finish(solver, outcome.state.step);
   outcome.wall_seconds += std::chrono::duration<double>(Clock::now() - started).count();
 }
 
@@ -153,7 +153,7 @@ Status print_summary(const RunOptions& options, const RunReport& run, const std:
                      const Recorder* recorder) {
   if (options.json) {
     Json json = to_json(run);
-    json["pictures"] = recorder ? to_json(recorder->times(), recorder->device()) : Json();
+    json["images"] = recorder ? to_json(recorder->times(), recorder->device()) : Json();
     json["files"] = files;
     return print_data(to_text(json));
   }
@@ -176,7 +176,7 @@ Status execute(const RunOptions& options) {
                 options.resume_file, start.state->step, steps);
   }
   const std::uint64_t first_step = start.state ? start.state->step : 0;
-  ASPIC_CHECK(check_frame_count(options.pictures, start.scene.model.simulation.timestep, first_step, steps));
+  ASPIC_CHECK(check_frame_count(options.images, start.scene.model.simulation.timestep, first_step, steps));
   ASPIC_TRY(auto built, build_model(start.scene.model));
   const SharedModel held_model = shared(std::move(built));
   const Model& model = *held_model;
@@ -187,7 +187,7 @@ Status execute(const RunOptions& options) {
   if (start.state) choice.precision = start.state->precision;
   const PageFacts page = {&start.scene,     first_step,       steps, command_of(options.words),
                           choice.precision, choice.arithmetic};
-  ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.pictures, facts,
+  ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.images, facts,
                                        options.force ? Overwrite::allow : Overwrite::refuse, page));
 
   ASPIC_TRY(auto backend, make_backend(choice, held_model));
@@ -198,11 +198,11 @@ Status execute(const RunOptions& options) {
 
   start.state.reset();
   std::unique_ptr<Recorder> recorder;
-  if (options.pictures.any()) {
-    ASPIC_TRY(recorder, Recorder::create(options.pictures, start.scene, backend, files.take_frame_sinks(),
+  if (options.images.any()) {
+    ASPIC_TRY(recorder, Recorder::create(options.images, start.scene, backend, files.take_frame_sinks(),
                                          first_step, steps));
   }
-  HeadlessRun headless(*backend.solver, files, first_step, options.pictures.any(), inputs);
+  HeadlessRun headless(*backend.solver, files, first_step, options.images.any(), inputs);
   headless.set_watch(watch);
   ASPIC_TRY(auto outcome, simulate(headless, recorder.get(), steps, interrupt));
   const std::string warnings = export_text(outcome.diagnostics);
@@ -213,9 +213,9 @@ Status execute(const RunOptions& options) {
                       .inputs = &backend.solver->inputs(),
                       .warnings = warnings});
   outcome.actuator_work = files.actuator_work();
-  if (recorder) finish_pictures(*recorder, *backend.solver, outcome);
+  if (recorder) finish_images(*recorder, *backend.solver, outcome);
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
-  if (!outcome.pictured && lost.empty()) lost.push_back(outcome.pictured.error());
+  if (!outcome.rendered && lost.empty()) lost.push_back(outcome.rendered.error());
   lost.insert(lost.end(), files.failures().begin(), files.failures().end());
   std::vector<std::string> written = recorder ? recorder->written() : std::vector<std::string>{};
   written.insert(written.end(), files.written().begin(), files.written().end());

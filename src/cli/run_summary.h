@@ -24,7 +24,7 @@ struct RunReport {
   const InputLog& inputs;
 };
 
-/// All of it but pictures and files.
+/// All of it but images and files.
 Json to_json(const RunReport& run);
 /// The same for people, a line each.
 std::string to_text(const RunReport& run);
@@ -33,9 +33,9 @@ std::string to_text(const RunReport& run);
 Json to_json(const std::vector<Diagnostic>& diagnostics);
 /// The same as exports hold it: docs/exports.md. Empty: nothing.
 std::string export_text(const std::vector<Diagnostic>& diagnostics);
-/// Pictures, and the time each took on `device`.
+/// Images, and the time each took on `device`.
 Json to_json(const FrameTimes& times, const std::string& device);
-/// One line on stderr: pictures are by the way, the summary on stdout is the run's.
+/// One line on stderr: images are by the way, the summary on stdout is the run's.
 void print_frame_times(const FrameTimes& times, const std::string& device);
 
 /// `aspic run` with these words, as a shell takes it.

@@ -103,7 +103,7 @@ class BallSearch {
   }
 
   void fill_grid(const Field<T>& x, const std::vector<std::uint32_t>& balls) {
-    cells_per_metre_ = 1.0 / (2.5 * reach_);
+    cells_per_meter_ = 1.0 / (2.5 * reach_);
     mask_ = std::bit_ceil(2 * balls.size()) - 1;
     std::vector<Cell> cells;
     cells.reserve(balls.size());
@@ -121,7 +121,7 @@ class BallSearch {
   Cell cell_of(const Vector<T>& x, double shift) const {
     Cell cell{};
     for (int axis = 0; axis < 3; ++axis) {
-      const double in_cells = static_cast<double>(x(axis)) * cells_per_metre_;
+      const double in_cells = static_cast<double>(x(axis)) * cells_per_meter_;
       cell[static_cast<std::size_t>(axis)] =
           static_cast<std::int64_t>(std::floor(std::clamp(in_cells, -farthest_cell, farthest_cell) + shift));
     }
@@ -137,7 +137,7 @@ class BallSearch {
   }
 
   const Field<T>& x_;
-  double reach_, cells_per_metre_ = 0.0;
+  double reach_, cells_per_meter_ = 0.0;
   std::vector<std::pair<T, std::uint32_t>> along_x_;
   std::size_t mask_ = 0;
   std::vector<std::size_t> bucket_start_;

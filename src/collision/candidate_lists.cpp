@@ -123,20 +123,20 @@ bool Bounds::meets(const Bounds& other, double margin) const {
 }
 
 std::size_t TriangleGrid::cell(std::size_t axis, double x) const {
-  const double n = (x - centres_.min[axis]) / size_;
+  const double n = (x - centers_.min[axis]) / size_;
   if (!(n > 0.0)) return 0;
   return std::min(cells_[axis] - 1, static_cast<std::size_t>(std::min(n, 1e9)));
 }
 
 void TriangleGrid::build(std::span<const Bounds> boxes) {
-  centres_ = {};
+  centers_ = {};
   half_ = 0.0;
-  const auto centre = [](const Bounds& box) {
+  const auto center = [](const Bounds& box) {
     return 0.5 * Vec3{box.min[0] + box.max[0], box.min[1] + box.max[1], box.min[2] + box.max[2]};
   };
   double sum = 0.0;
   for (const Bounds& box : boxes) {
-    centres_.add(centre(box));
+    centers_.add(center(box));
     double half = 0.0;
     for (std::size_t c = 0; c < 3; ++c) half = std::max(half, 0.5 * (box.max[c] - box.min[c]));
     half_ = std::max(half_, half);
@@ -145,13 +145,13 @@ void TriangleGrid::build(std::span<const Bounds> boxes) {
   // Cells of the size of a quad, larger where that would make more of them than there are triangles.
   size_ = std::max(2.0 * sum / static_cast<double>(boxes.size()), std::numeric_limits<double>::min());
   const auto count = [&](std::size_t c) {
-    return 1.0 + std::floor((centres_.max[c] - centres_.min[c]) / size_);
+    return 1.0 + std::floor((centers_.max[c] - centers_.min[c]) / size_);
   };
   while (count(0) * count(1) * count(2) > 8.0 * static_cast<double>(boxes.size())) size_ *= 2.0;
   for (std::size_t c = 0; c < 3; ++c) cells_[c] = static_cast<std::size_t>(count(c));
 
   const auto index = [&](const Bounds& box) {
-    const Vec3 at = centre(box);
+    const Vec3 at = center(box);
     return (cell(0, at.x) * cells_[1] + cell(1, at.y)) * cells_[2] + cell(2, at.z);
   };
   begin_.assign(cells_[0] * cells_[1] * cells_[2] + 1, 0);
@@ -332,7 +332,7 @@ void CandidateLists::add_groups(std::uint32_t a, std::uint32_t b) {
     found_.clear();
     grid_.near(place, margin, found_);
     for (std::uint32_t& t : found_) t += faces.first_triangle;
-    if (a == b) drop_neighbours(p, found_);
+    if (a == b) drop_neighbors(p, found_);
     if (found_.empty()) continue;
     candidate_groups_.push_back(
         {p, b, static_cast<std::uint32_t>(triangles_.size()), static_cast<std::uint32_t>(found_.size())});
@@ -341,7 +341,7 @@ void CandidateLists::add_groups(std::uint32_t a, std::uint32_t b) {
 }
 
 /// Self-contact: leaves only triangles that are far apart at rest.
-void CandidateLists::drop_neighbours(std::uint32_t point, std::vector<std::uint32_t>& triangles) const {
+void CandidateLists::drop_neighbors(std::uint32_t point, std::vector<std::uint32_t>& triangles) const {
   const auto spacing_at = [&](std::uint32_t p) {
     const auto after = std::ranges::upper_bound(surfaces_.bodies, p, {}, &ContactBody::first_point);
     return std::prev(after)->spacing;

@@ -54,7 +54,7 @@ class TriangleGrid {
  private:
   std::size_t cell(std::size_t axis, double x) const;
 
-  Bounds centres_;
+  Bounds centers_;
   double half_ = 0.0;  // extent of the largest box [m]
   double size_ = 1.0;  // of a cell [m]
   std::array<std::size_t, 3> cells_ = {};
@@ -103,7 +103,7 @@ class CandidateLists {
   void find_body_pairs(const std::vector<Bounds>& around);
   void add_groups(std::uint32_t a, std::uint32_t b);
   Vec3 place_of(std::uint32_t point, std::span<const Vec3> places) const;
-  void drop_neighbours(std::uint32_t point, std::vector<std::uint32_t>& triangles) const;
+  void drop_neighbors(std::uint32_t point, std::vector<std::uint32_t>& triangles) const;
 
   const ContactSurfaces& surfaces_;
   ContactSettings contact_;

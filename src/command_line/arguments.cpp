@@ -52,15 +52,21 @@ std::string typed_name(const CLI::Option& option, const std::vector<std::string>
   return option.get_name();
 }
 
-/// Names that options of `run` had before 0.3, accepted until 0.4.
-constexpr std::pair<std::string_view, std::string_view> former_names[] = {
-    {"--beside", "--variant"}, {"--page", "--html"}, {"--page-live", "--html-live"}};
+/// Names that options had before 0.3, accepted until 0.4.
+struct FormerName {
+  std::string_view command, former, present;
+};
+constexpr FormerName former_names[] = {{"run", "--beside", "--variant"},
+                                       {"run", "--page", "--html"},
+                                       {"run", "--page-live", "--html-live"},
+                                       {"bench", "--pictures", "--images"}};
 
-/// A word with the present name of its option.
-std::string renamed(const std::string& word) {
+/// A word of a command with the present name of its option.
+std::string renamed(std::string_view command, const std::string& word) {
   const std::size_t end = std::min(word.find('='), word.size());
-  for (const auto& [former, present] : former_names)
-    if (std::string_view(word).substr(0, end) == former) return std::string(present) + word.substr(end);
+  for (const FormerName& name : former_names)
+    if (command == name.command && std::string_view(word).substr(0, end) == name.former)
+      return std::string(name.present) + word.substr(end);
   return word;
 }
 
@@ -68,7 +74,7 @@ std::string renamed(const std::string& word) {
 
 Result<Command> parse_arguments(int argc, const char* const* argv) {
   std::vector<std::string> words(argv, argv + argc);
-  if (argc > 2 && words[1] == "run") std::ranges::transform(words, words.begin(), renamed);
+  for (std::size_t w = 2; w < words.size(); ++w) words[w] = renamed(words[1], words[w]);
   std::vector<const char*> pointers;
   for (const std::string& word : words) pointers.push_back(word.c_str());
   argv = pointers.data();

@@ -28,8 +28,8 @@ struct RunOptions {
   std::string resume_file;           ///< empty: none
   std::string replay_file;           ///< of inputs; empty: none
   std::vector<StateOutput> outputs;  ///< one for each of state_options()
-  PictureOutput pictures;
-  std::vector<std::string> view;         ///< KEY=VALUE of the scene's view table, for the pictures
+  ImageOutput images;
+  std::vector<std::string> view;         ///< KEY=VALUE of the scene's view table, for the images
   std::vector<std::string> differences;  ///< KEY=VALUE, one for each further run
   bool force = false;
   bool json = false;
@@ -58,11 +58,11 @@ struct BenchOptions {
   std::vector<int> sizes;               ///< particles per edge of all cubes; empty: the scene's
   std::vector<Integrator> integrators;  ///< empty: the scene's
   BenchTimestep timestep = BenchTimestep::scene;
-  double seconds = 2.0;                 ///< per measurement, all repeats together, > 0
-  std::optional<double> duration;       ///< simulated time of each repeat [s], instead of `seconds`
-  int repeats = 5;                      ///< ≥ 1
-  int warm_up = 1;                      ///< runs of each case before them, ≥ 0
-  std::optional<PictureSize> pictures;  ///< what a picture of this size costs is measured instead
+  double seconds = 2.0;             ///< per measurement, all repeats together, > 0
+  std::optional<double> duration;   ///< simulated time of each repeat [s], instead of `seconds`
+  int repeats = 5;                  ///< ≥ 1
+  int warm_up = 1;                  ///< runs of each case before them, ≥ 0
+  std::optional<ImageSize> images;  ///< what an image of this size costs is measured instead
   bool json = false;
 };
 
@@ -106,7 +106,7 @@ struct ViewOptions {
   std::string scene = "cube-plane";
   std::vector<std::string> overrides;
   BackendChoice backend;
-  std::optional<PictureSize>
+  std::optional<ImageSize>
       size;                 ///< of the window, in the display's units; absent: as it was last, or 1280 × 720
   std::string layout;       ///< one of window_layouts; empty: as it was last
   std::string replay_file;  ///< of inputs; empty: none

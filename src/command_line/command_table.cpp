@@ -12,8 +12,8 @@
 #include "command_line/checked_words.h"
 #include "command_line/help_texts.h"
 #include "command_line/window_layouts.h"
-#include "io/film_format.h"
 #include "io/state_sink.h"
+#include "io/video_format.h"
 
 namespace aspic {
 namespace {
@@ -93,18 +93,18 @@ void add_length(CLI::App* c, RunLength& length) {
       ->excludes(steps);
 }
 
-void add_pictures(CLI::App* c, RunOptions& run, RawOptions& raw) {
-  PictureOutput& pictures = run.pictures;
-  add(c, "--video", "FILE", pictures.video,
-      fmt::format("write a video: {} (needs ffmpeg)", film_endings(false)));
-  add(c, "--frames", "DIR", pictures.frames, "write numbered frames into a directory");
-  add(c, "--html", "FILE", pictures.page,
+void add_images(CLI::App* c, RunOptions& run, RawOptions& raw) {
+  ImageOutput& images = run.images;
+  add(c, "--video", "FILE", images.video,
+      fmt::format("write a video: {} (needs ffmpeg)", video_endings(false)));
+  add(c, "--frames", "DIR", images.frames, "write numbered frames into a directory");
+  add(c, "--html", "FILE", images.page,
       "write a page to play in a browser (.html); with --variant all runs in one");
-  add(c, "--html-live", "FILE", pictures.page_live,
+  add(c, "--html-live", "FILE", images.page_live,
       "the same, simulated in the browser, with sliders and a check of the bits");
-  add(c, "--frames-format", "NAME", raw.frames_format, film_endings(true));
-  add(c, "--fps", "F", pictures.fps, "frames per second shown; default 60, for a GIF 50");
-  add(c, "--speed", "X", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion");
+  add(c, "--frames-format", "NAME", raw.frames_format, video_endings(true));
+  add(c, "--fps", "F", images.fps, "frames per second shown; default 60, for a GIF 50");
+  add(c, "--speed", "X", images.speed, "simulated seconds per second shown: 0.25 is slow motion");
   add(c, "--size", "WxH", raw.size, "size of the images in pixels");
   add(c, "--text", "on|off", raw.text, "text on the images: on or off");
   c->add_flag("--no-text", raw.no_text, "the same as --text off");
@@ -131,7 +131,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add_length(c, run.length);
   add_overrides(c, run.overrides);
   add_outputs(c, run.outputs);
-  add_pictures(c, run, raw);
+  add_images(c, run, raw);
   add(c, "--variant", "KEY=VALUE", run.differences,
       "add a run with this difference, e.g. integrator=implicit-euler, h=0.002; up to three");
   add(c, "--resume", "FILE", run.resume_file,
@@ -197,7 +197,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
   add(c, "--duration", "S", bench.duration, "simulated seconds of each repeat")->excludes(seconds);
   add(c, "--repeats", "N", bench.repeats, "measured runs of each case", repeats);
   add(c, "--warm-up", "N", bench.warm_up, "runs of each case before those, not counted", {0, repeats.most});
-  add(c, "--pictures", "WxH", raw.bench_pictures,
+  add(c, "--images", "WxH", raw.bench_images,
       "measure rendering by pass instead, at 60 frames a simulated second")
       ->excludes(seconds, sizes, integrators, timestep);
   add_overrides(c, bench.overrides);

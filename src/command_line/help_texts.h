@@ -52,9 +52,9 @@ inline constexpr const char* info_examples = R"(Examples:
 inline constexpr const char* run_examples = R"(Examples:
   aspic run cube-plane --steps 1000 --json
   aspic run cube-sphere --backend reference --precision double --state end.csv
-  aspic run cube-bowl --video bowl.mp4 --speed 0.5 --view colour=strain
+  aspic run cube-bowl --video bowl.mp4 --speed 0.5 --view color=strain
   aspic run cube-plane --variant integrator=implicit-euler --variant h=0.002 --video variants.mp4
-  aspic run cube-plane --html run.html --view colour=strain
+  aspic run cube-plane --html run.html --view color=strain
   aspic run cube-plane --export run.pvd --export-every 40
   aspic run cube-plane --frames out --fps 30 --size 640x360 --no-text
   aspic run cube-plane --duration 2 --checkpoint half.aspic

@@ -11,7 +11,7 @@
 #include "base/files.h"
 #include "base/printable.h"
 #include "command_line/window_layouts.h"
-#include "io/film_format.h"
+#include "io/video_format.h"
 #include "page/page_writer.h"
 #include "scene/parameters.h"
 
@@ -26,8 +26,8 @@ Status check_length(const RunLength& length) {
 }
 
 /// "1280x720". The limits are those that every OpenGL 4.3 device takes.
-Result<PictureSize> parse_size(const std::string& text, std::string_view option = "--size") {
-  PictureSize size;
+Result<ImageSize> parse_size(const std::string& text, std::string_view option = "--size") {
+  ImageSize size;
   const char* end = text.data() + text.size();
   const auto width = std::from_chars(text.data(), end, size.width);
   if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
@@ -41,45 +41,44 @@ Result<PictureSize> parse_size(const std::string& text, std::string_view option 
                option, printable_line(text));
 }
 
-/// Options of pictures, where there are none, would do nothing.
-Status check_pictures_wanted(const PictureOutput& pictures, const RawOptions& raw) {
+/// Options of images, where there are none, would do nothing.
+Status check_images_wanted(const ImageOutput& images, const RawOptions& raw) {
   for (const std::string_view option : {"--frames-format", "--size", "--text", "--no-text"})
-    if (raw.gave(option) && !pictures.any())
+    if (raw.gave(option) && !images.any())
       return usage("{} applies to images: add --video FILE or --frames DIR, or omit it.", option);
   for (const std::string_view option : {"--fps", "--speed", "--view"})
-    if (raw.gave(option) && !pictures.any() && !pictures.any_page())
+    if (raw.gave(option) && !images.any() && !images.any_page())
       return usage("{} applies to images: add --video FILE, --frames DIR or --html FILE, or omit it.",
                    option);
-  if (raw.gave("--frames-format") && pictures.frames.empty())
+  if (raw.gave("--frames-format") && images.frames.empty())
     return usage("--frames-format applies to --frames DIR: add that, or omit --frames-format.");
   return {};
 }
 
-Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
-  ASPIC_CHECK(check_pictures_wanted(pictures, raw));
+Status finish_images(ImageOutput& images, const RawOptions& raw) {
+  ASPIC_CHECK(check_images_wanted(images, raw));
   ASPIC_TRY(const auto size, parse_size(raw.size));
-  pictures.size = size;
-  const FilmFormat* const images = find_film_format(raw.frames_format);
-  if (!images || !images->is_directory())
-    return usage("--frames-format must be {}, not \"{}\".", film_endings(true),
+  images.size = size;
+  const VideoFormat* const frames = find_video_format(raw.frames_format);
+  if (!frames || !frames->is_directory())
+    return usage("--frames-format must be {}, not \"{}\".", video_endings(true),
                  printable_line(raw.frames_format));
-  pictures.frames_format = images;
+  images.frames_format = frames;
   if (raw.text != "on" && raw.text != "off")
     return usage("--text must be on or off, not \"{}\".", printable_line(raw.text));
-  pictures.text = raw.text == "on" && !raw.no_text;
+  images.text = raw.text == "on" && !raw.no_text;
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  if (pictures.fps && !(positive(*pictures.fps) && *pictures.fps <= 1000.0))
-    return usage("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps);
-  if (!positive(pictures.speed))
-    return usage("--speed must be a finite number above 0, not {}.", pictures.speed);
-  const std::pair<std::string_view, const std::string&> pages[] = {{"--html", pictures.page},
-                                                                   {"--html-live", pictures.page_live}};
+  if (images.fps && !(positive(*images.fps) && *images.fps <= 1000.0))
+    return usage("--fps must be more than 0 and at most 1000, not {}.", *images.fps);
+  if (!positive(images.speed)) return usage("--speed must be a finite number above 0, not {}.", images.speed);
+  const std::pair<std::string_view, const std::string&> pages[] = {{"--html", images.page},
+                                                                   {"--html-live", images.page_live}};
   for (const auto& [option, path] : pages)
     if (const Status named = path.empty() ? Status() : page::check_page_name(path); !named)
       return fail(named.error(), "{}: {}", option, named.error().what);
-  if (pictures.video.empty()) return {};
-  ASPIC_TRY(const auto format, video_format_of(pictures.video));
-  return check_film(*format, pictures.size, frames_per_second(pictures));
+  if (images.video.empty()) return {};
+  ASPIC_TRY(const auto format, video_format_of(images.video));
+  return check_video(*format, images.size, frames_per_second(images));
 }
 
 /// The options that every backend may be asked for.
@@ -168,7 +167,7 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
     return usage(
         "--set cannot change the scene of a checkpoint. Omit --set, or run a scene without --resume.");
   }
-  ASPIC_CHECK(finish_pictures(run.pictures, raw));
+  ASPIC_CHECK(finish_images(run.images, raw));
   return Command(std::move(run));
 }
 
@@ -190,6 +189,7 @@ Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
   if (!raw.window_size.empty()) {
     ASPIC_TRY(view.size, parse_size(raw.window_size));
   }
+  view.layout = present_layout(view.layout);
   if (!view.layout.empty() && std::ranges::find(window_layouts, view.layout) == std::end(window_layouts))
     return usage("--layout must be one of {}, not \"{}\".", fmt::join(window_layouts, ", "),
                  printable_line(view.layout));
@@ -243,8 +243,8 @@ Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
     return usage("--duration must be a number above 0.");
   }
   if (bench.repeats < 1) return usage("--repeats must be 1 or more.");
-  if (!raw.bench_pictures.empty()) {
-    ASPIC_TRY(bench.pictures, parse_size(raw.bench_pictures, "--pictures"));
+  if (!raw.bench_images.empty()) {
+    ASPIC_TRY(bench.images, parse_size(raw.bench_images, "--images"));
   }
   return Command(std::move(bench));
 }

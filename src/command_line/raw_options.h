@@ -17,7 +17,7 @@ struct RawOptions {
   std::optional<unsigned> threads;
   std::vector<std::string> backends = {"gpu", "reference"};
   std::vector<std::string> bench_backends = {"auto"}, bench_force_paths, bench_integrators;
-  std::string bench_timestep = "scene", bench_pictures;
+  std::string bench_timestep = "scene", bench_images;
   std::string part = "1/1";
   std::string window_size, size = "1280x720", frames_format = "png", text = "on";
   bool no_text = false;

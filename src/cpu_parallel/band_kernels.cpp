@@ -61,7 +61,7 @@ HWY_INLINE Spring spring_of(const Tables& all, const Band& band, std::size_t lan
           hn::LoadU(tag, lanes_of.rest_length.data() + lane)};
 }
 
-/// Evaluates `size` bands of some lanes of a slice, from the farthest neighbours on: bands[size − 1] first.
+/// Evaluates `size` bands of some lanes of a slice, from the farthest neighbors on: bands[size − 1] first.
 template <std::size_t size>
 HWY_INLINE void evaluate(const Tables& all, const Chunk& at, const Band* bands, const SliceAt& own,
                          std::size_t lane, const Forces& sums, const Forces& pulls, std::size_t number) {
@@ -89,7 +89,7 @@ HWY_INLINE void evaluate(const Tables& all, const Chunk& at, const Band* bands, 
 }
 
 /// All bands from `least` on of a slice, a vector of its particles after the other and of each the farthest
-/// neighbours first: so a particle takes its lower neighbours in ascending order.
+/// neighbors first: so a particle takes its lower neighbors in ascending order.
 HWY_INLINE void evaluate_slice(const Tables& all, const Chunk& at, std::span<const Band> bands,
                                std::size_t least, const SliceAt& own, const Forces& sums,
                                const Forces& pulls) {

@@ -1,7 +1,7 @@
 #pragma once
 // Forces of springs in bands, each evaluated once. A sweep goes through the slices in ascending order; what a
 // spring adds to its upper end waits in sums of the particles that the sweep has reached, so that every
-// particle adds in ascending neighbour index, as in lattice_kernels.h.
+// particle adds in ascending neighbor index, as in lattice_kernels.h.
 #include <cstddef>
 #include <vector>
 
@@ -37,7 +37,7 @@ class BandSweep {
 };
 
 /// The springs of `count` particles from where the sweep is on, at most band_piece, to their upper
-/// neighbours. Writes their forces, and up to `slice` − 1 values more.
+/// neighbors. Writes their forces, and up to `slice` − 1 values more.
 void band_forces(const Bands& bands, const ForceInput& input, BandSweep& sweep, std::size_t count,
                  const Forces& forces);
 /// Of these springs those that a sweep which begins at `target` needs.

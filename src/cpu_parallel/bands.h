@@ -1,7 +1,7 @@
 #pragma once
 // Springs of lattices some of whose cells are empty, or of several materials: in bands. A band is the springs
-// of a slice of particles to neighbours one difference of indices on, as many of the slice as have one; so
-// neighbours are read as they lie in memory. Slices that are alike share their bands.
+// of a slice of particles to neighbors one difference of indices on, as many of the slice as have one; so
+// neighbors are read as they lie in memory. Slices that are alike share their bands.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -12,9 +12,9 @@
 
 namespace aspic::parallel {
 
-/// Springs of a slice's particles to upper neighbours.
+/// Springs of a slice's particles to upper neighbors.
 struct Band {
-  std::int32_t step;      ///< from a particle's index to its neighbour's, > 0
+  std::int32_t step;      ///< from a particle's index to its neighbor's, > 0
   std::uint16_t present;  ///< which of the slice's particles have this spring
   std::uint16_t kind;     ///< see Bands
 };

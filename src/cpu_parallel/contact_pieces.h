@@ -36,26 +36,26 @@ inline double sway_of(const Terrain& terrain) {
 
 /// How near a terrain at rest a point may be that counts as near it: ε, the way of one that moves, and a
 /// margin. Distances in single precision differ from true ones by a few rounding errors of the coordinates,
-/// here of points within `radius` of `centre`: 1e-5 of them is beyond all.
-inline double nearness(const Model& model, const Terrain& terrain, const Vec3& centre, double radius) {
+/// here of points within `radius` of `center`: 1e-5 of them is beyond all.
+inline double nearness(const Model& model, const Terrain& terrain, const Vec3& center, double radius) {
   const double sway = sway_of(terrain);
-  return model.contact.distance + sway + 1e-5 * (length(centre) + radius + reach_of(terrain) + sway);
+  return model.contact.distance + sway + 1e-5 * (length(center) + radius + reach_of(terrain) + sway);
 }
 
 /// Whether a point of the box may be nearer than ε to any terrain, wherever a moving one is.
 inline bool near_terrain(const Model& model, const Box& box) {
   const Vec3 min = {box.min[0], box.min[1], box.min[2]}, max = {box.max[0], box.max[1], box.max[2]};
-  const Vec3 centre = 0.5 * (min + max), half = 0.5 * (max - min);
+  const Vec3 center = 0.5 * (min + max), half = 0.5 * (max - min);
   const double radius = length(half);
   return std::ranges::any_of(model.terrain, [&](const Terrain& terrain) {
-    const double near = nearness(model, terrain, centre, radius);
+    const double near = nearness(model, terrain, center, radius);
     // All of a terrain with a flat part lies behind it; a box in front, however large, is told by its corner.
     if (const auto flat = terrain_row(terrain.shape).flat) {
       const auto [point, n] = flat(terrain.geometry);
       const double corner = std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
-      if (dot(centre - point, n) > corner + near) return false;
+      if (dot(center - point, n) > corner + near) return false;
     }
-    return !(signed_distance(terrain, centre) > radius + near);
+    return !(signed_distance(terrain, center) > radius + near);
   });
 }
 

@@ -102,16 +102,16 @@ struct Lanes {
   }
 };
 
-/// Calls take(direction number, mask) for the directions in which some of the lanes have a neighbour.
+/// Calls take(direction number, mask) for the directions in which some of the lanes have a neighbor.
 template <class Take>
 HWY_INLINE void for_each_direction(const LatticeStencil& lattice, std::size_t plane, std::size_t m,
                                    const Take& take) {
   const auto planes = static_cast<int>(lattice.planes()), own = static_cast<int>(plane);
   const std::span<const Direction> directions = lattice.directions();
-  const std::uint16_t* const neighbours = lattice.neighbours(m);
+  const std::uint16_t* const neighbors = lattice.neighbors(m);
   for (std::size_t d = 0; d < directions.size(); ++d) {
     const int other = own + directions[d].planes;
-    if (neighbours[d] != 0 && other >= 0 && other < planes) take(d, mask_of(neighbours[d], m % slice));
+    if (neighbors[d] != 0 && other >= 0 && other < planes) take(d, mask_of(neighbors[d], m % slice));
   }
 }
 
@@ -206,7 +206,7 @@ struct SlotLanes {
   HWY_INLINE SlotLanes(const SpringLists::Slot& slot, std::size_t lane)
       : present(mask_of(slot.present, lane)) {
     const hn::RebindToSigned<Tag> index_tag;
-    other = hn::LoadU(index_tag, slot.neighbour.data() + lane);
+    other = hn::LoadU(index_tag, slot.neighbor.data() + lane);
     spring_class = hn::LoadU(index_tag, slot.spring_class.data() + lane);
   }
   HWY_INLINE Float along(const Jacobians& jacobians) const {

@@ -22,7 +22,7 @@ void ListedForces(const SpringLists& lists, const ForceInput& input, Range range
     const Vector x = load(at.x, p), v = load(at.v, p);
     Vector f = body_force(input, p);
     for (const SpringLists::Slot& slot : lists.slots(local / slice)) {
-      const auto other = hn::LoadU(index_tag, slot.neighbour.data() + lane);
+      const auto other = hn::LoadU(index_tag, slot.neighbor.data() + lane);
       const auto kind = hn::LoadU(index_tag, slot.spring_class.data() + lane);
       const Spring of[] = {{hn::GatherIndex(tag, lists.stiffness().data(), kind),
                             hn::GatherIndex(tag, lists.damping().data(), kind),

@@ -26,7 +26,7 @@ struct Vector {
   Float x, y, z;
 };
 
-/// Places count modulo 2⁶⁴: a neighbour's may lie in the margin before the first particle.
+/// Places count modulo 2⁶⁴: a neighbor's may lie in the margin before the first particle.
 HWY_INLINE Vector load(const VectorArray& a, std::size_t i) {
   const auto at = static_cast<std::ptrdiff_t>(i);
   return {hn::LoadU(tag, a[0].data() + at), hn::LoadU(tag, a[1].data() + at),

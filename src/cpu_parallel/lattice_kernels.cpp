@@ -11,7 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace aspic::parallel::HWY_NAMESPACE {
 namespace {
 
-/// Directions to upper neighbours.
+/// Directions to upper neighbors.
 constexpr std::size_t most_upper = 16;
 
 /// What springs take off the forces on their lower ends, by direction and component, with a slice before and
@@ -136,13 +136,13 @@ void LatticeSprings(const LatticeStencil& lattice, const ForceInput& input, Swee
   while (directions[least].planes < reach) ++least;
   while (static_cast<std::size_t>(directions[end - 1].planes) > left) --end;
   const std::size_t first = lattice.first() + plane * lattice.plane_size() + range.first;
-  Chunk chunk{{}, {}, range.count, lattice.neighbours(range.first), directions.size()};
+  Chunk chunk{{}, {}, range.count, lattice.neighbors(range.first), directions.size()};
   for (std::size_t c = 0; c < 3; ++c) {
     chunk.x[c] = input.at->x[c].data() + first;
     chunk.v[c] = input.at->v[c].data() + first;
   }
   Pulls pulls;
-  // The farthest directions first: an upper end takes its lower neighbours in ascending order.
+  // The farthest directions first: an upper end takes its lower neighbors in ascending order.
   for (std::size_t d = end; d > least;) {
     const int planes = directions[d - 1].planes;
     Forces upper = sweep.plane(plane + static_cast<std::size_t>(planes));
@@ -154,12 +154,12 @@ void LatticeSprings(const LatticeStencil& lattice, const ForceInput& input, Swee
   if (!forces) return;
   const Forces so_far = sweep.plane(plane), out = *forces;
   for (std::size_t n = 0; n < range.count; n += lanes) {
-    const std::uint16_t* const neighbours = lattice.neighbours(range.first + n);
+    const std::uint16_t* const neighbors = lattice.neighbors(range.first + n);
     Vector f = load(so_far, range.first + n);
     for (std::size_t d = half; d < end; ++d) {
       const Vector less = f - load(pulls.at(d - half), n);
       // Absent springs pull −0 here, which is not +0.
-      f = chosen(mask_of(neighbours[d], n % slice), less, f);
+      f = chosen(mask_of(neighbors[d], n % slice), less, f);
     }
     store(f, out, n);
   }

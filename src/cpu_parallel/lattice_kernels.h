@@ -1,8 +1,8 @@
 #pragma once
 // Springs of a box, each evaluated once. A sweep goes through the planes in ascending order and through a
 // plane in ascending chunks. What a spring adds to its upper end waits in sums of the planes that the sweep
-// has reached, so that every particle adds in ascending neighbour index: by the time its own chunk comes, all
-// its lower neighbours have added theirs.
+// has reached, so that every particle adds in ascending neighbor index: by the time its own chunk comes, all
+// its lower neighbors have added theirs.
 #include <array>
 #include <cstddef>
 
@@ -40,7 +40,7 @@ void begin_plane(const LatticeStencil& lattice, const ForceInput& input, Sweep& 
 void lattice_ghosts(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
                     int reach);
 
-/// The springs of the particles first … first + count − 1 of a plane to their upper neighbours; `first` is a
+/// The springs of the particles first … first + count − 1 of a plane to their upper neighbors; `first` is a
 /// multiple of `slice`, and count ≤ chunk_size. Writes their forces, and up to `slice` − 1 values more.
 void lattice_forces(const LatticeStencil& lattice, const ForceInput& input, Sweep& sweep, std::size_t plane,
                     Range range, const Forces& forces);

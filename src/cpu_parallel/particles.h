@@ -1,6 +1,6 @@
 #pragma once
-// Particles as the parallel solver holds them: one array per component, so that neighbouring lanes of a
-// vector register are neighbouring particles.
+// Particles as the parallel solver holds them: one array per component, so that neighboring lanes of a
+// vector register are neighboring particles.
 #include <algorithm>
 #include <array>
 #include <cstddef>

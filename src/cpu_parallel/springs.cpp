@@ -75,11 +75,11 @@ SpringLists::SpringLists(const Model& model, const Body& body)
   Slot empty{};
   slots_.assign(start_.back(), empty);
   std::ranges::fill(degree, 0u);
-  // Springs are sorted by (a, b): taken in that order, each particle's lower neighbours come first, in order.
+  // Springs are sorted by (a, b): taken in that order, each particle's lower neighbors come first, in order.
   const auto append = [&](std::uint32_t own, std::uint32_t other, const Spring& s) {
     const std::size_t local = own - first_, lane = local % slice;
     Slot& slot = slots_[start_[local / slice] + degree[local]++];
-    slot.neighbour[lane] = static_cast<std::int32_t>(other);
+    slot.neighbor[lane] = static_cast<std::int32_t>(other);
     slot.spring_class[lane] = static_cast<std::int32_t>(s.spring_class);
     slot.nothing[lane] = own < other ? -0.0f : 0.0f;
     slot.present = static_cast<std::uint16_t>(slot.present | 1u << lane);

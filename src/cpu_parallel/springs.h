@@ -1,5 +1,5 @@
 #pragma once
-// Where the springs of a particle lead, as the vector kernels read it. A box needs no list: its neighbours
+// Where the springs of a particle lead, as the vector kernels read it. A box needs no list: its neighbors
 // follow from a particle's place in the lattice. All other bodies have lists, transposed in slices of 16
 // particles.
 #include <array>
@@ -24,8 +24,8 @@ struct Constants {
 
 /// A direction in which particles of a lattice have a spring.
 struct Direction {
-  std::ptrdiff_t step;  ///< to the neighbour's index
-  int planes;           ///< to the neighbour's plane
+  std::ptrdiff_t step;  ///< to the neighbor's index
+  int planes;           ///< to the neighbor's plane
   Constants constants;
   std::uint32_t spring_class;  ///< of the model
   /// What a spring of no length adds: the lower end gets +0 added, the upper end has +0 taken off, which
@@ -47,11 +47,11 @@ class LatticeStencil {
   std::size_t row_size() const { return row_size_; }
   std::size_t reach() const { return 2 * plane_size() + 2 * row_size_ + 2; }  ///< largest step
 
-  /// In ascending neighbour index.
+  /// In ascending neighbor index.
   std::span<const Direction> directions() const { return directions_; }
   /// For each direction one word for `slice` particles of any plane, from the plane's particle `at` on, a
-  /// multiple of `slice`: which of them have the neighbour, provided that its plane exists.
-  const std::uint16_t* neighbours(std::size_t at) const { return &bits_[at / slice * directions_.size()]; }
+  /// multiple of `slice`: which of them have the neighbor, provided that its plane exists.
+  const std::uint16_t* neighbors(std::size_t at) const { return &bits_[at / slice * directions_.size()]; }
   std::uint64_t bytes() const { return bytes_of(directions_) + bytes_of(bits_); }
 
  private:
@@ -60,12 +60,12 @@ class LatticeStencil {
   std::vector<std::uint16_t> bits_;
 };
 
-/// Any body: lists of incident springs in ascending neighbour index.
+/// Any body: lists of incident springs in ascending neighbor index.
 class SpringLists {
  public:
-  /// One place in the lists of `slice` particles; neighbours are global indices.
+  /// One place in the lists of `slice` particles; neighbors are global indices.
   struct Slot {
-    std::array<std::int32_t, slice> neighbour, spring_class;
+    std::array<std::int32_t, slice> neighbor, spring_class;
     std::array<float, slice> nothing;  ///< as in Direction
     std::uint16_t present;             ///< which of the particles have this many springs
   };

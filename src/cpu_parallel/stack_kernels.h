@@ -1,7 +1,7 @@
 #pragma once
 // Inner loops of a stack: up to 16 models with the same springs, one a lane. Every array has a row of 16
 // numbers for each particle, so that a vector register holds one particle of all models. No lane waits for
-// another's neighbours, and each lane does what the reference does, spring by spring in the same order.
+// another's neighbors, and each lane does what the reference does, spring by spring in the same order.
 #include <array>
 #include <cstdint>
 #include <span>

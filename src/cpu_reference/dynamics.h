@@ -39,7 +39,7 @@ class Dynamics {
   const Model& model() const { return *model_; }
   T time_step() const { return static_cast<T>(model_->simulation.timestep); }
 
-  /// While `*flag` is true forces are left incomplete, for a step that is cancelled; see
+  /// While `*flag` is true forces are left incomplete, for a step that is canceled; see
   /// Solver::set_stop_flag.
   void set_stop_flag(const std::atomic<bool>* flag) { flag_ = flag; }
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }

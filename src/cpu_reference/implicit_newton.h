@@ -46,7 +46,7 @@ T next_forcing(T ratio) {
 ///   T advance(T α, bool first)  δ += α·p, or δ = α·p if it is the first part of δ; r −= α·q, z = B⁻¹·r;
 ///                     returns r·z
 ///   void turn(T β)    p = z + β·p
-///   bool interrupted()  whether the step is cancelled (Solver::set_stop_flag)
+///   bool interrupted()  whether the step is canceled (Solver::set_stop_flag)
 template <class T, class System>
 void conjugate_gradients(System& system, T forcing, std::uint32_t most, std::uint32_t& iterations) {
   T rz = system.start_solve();

@@ -39,7 +39,7 @@ class BodyForceTerm final : public Term<T> {
   Eigen::Array<T, Eigen::Dynamic, 1> mass_;
 };
 
-/// Springs are sorted by (a, b), so each particle's sum runs over its springs in ascending neighbour index.
+/// Springs are sorted by (a, b), so each particle's sum runs over its springs in ascending neighbor index.
 template <class T>
 class SpringTerm final : public Term<T> {
  public:

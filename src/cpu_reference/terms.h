@@ -41,7 +41,7 @@ class Terms {
   /// `dynamics` must outlive it.
   explicit Terms(const Dynamics<T>& dynamics);
 
-  /// Their sum at (x, v), this share of the step after its start [N]; incomplete in a step that is cancelled.
+  /// Their sum at (x, v), this share of the step after its start [N]; incomplete in a step that is canceled.
   Field<T> force(const Field<T>& x, const Field<T>& v, double share = 0.0) const;
   /// Their sum at the end of a step from x with the velocity v [N], and the diagonal blocks of A [kg].
   std::pair<Field<T>, Blocks> linearize(const Field<T>& x, const Field<T>& v);

@@ -1,5 +1,5 @@
 #pragma once
-// What solvers leave on the device for pictures: the state, and the springs of the model.
+// What solvers leave on the device for images: the state, and the springs of the model.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -11,12 +11,12 @@
 
 namespace aspic {
 
-/// Nothing writes them once they are made, so solvers and pictures of one context may share them.
+/// Nothing writes them once they are made, so solvers and images of one context may share them.
 struct SpringBuffers {
   const gl::Context* context = nullptr;
-  IncidentWords kind = IncidentWords::neighbours;  ///< what the incident words mean
-  gl::Buffer incident_start;                       ///< BINDING_INCIDENT_START
-  gl::Buffer incident;                             ///< BINDING_INCIDENT
+  IncidentWords kind = IncidentWords::neighbors;  ///< what the incident words mean
+  gl::Buffer incident_start;                      ///< BINDING_INCIDENT_START
+  gl::Buffer incident;                            ///< BINDING_INCIDENT
   gl::Buffer springs;   ///< BINDING_SPRINGS: packed_springs(), with words that name springs alone
   gl::Buffer lattices;  ///< BINDING_LATTICES, if the words leave lattices out; else a table without any
   std::vector<std::uint32_t> starts;  ///< what incident_start holds
@@ -56,11 +56,11 @@ struct DeviceState {
   /// model has none.
   const gl::Buffer* balls = nullptr;
   std::uint32_t first_ball = 0;
-  std::uint64_t step = 0;  ///< steps since the run's start: how far balls have turned since the last picture
-  /// The model's springs, for colours that show what they do; null, or with words that name springs or leave
-  /// bodies of cells out: pictures make their own.
+  std::uint64_t step = 0;  ///< steps since the run's start: how far balls have turned since the last image
+  /// The model's springs, for colors that show what they do; null, or with words that name springs or leave
+  /// bodies of cells out: images make their own.
   const SpringBuffers* springs = nullptr;
-  /// Of the inputs that hold, for colours of springs whose rest lengths follow them.
+  /// Of the inputs that hold, for colors of springs whose rest lengths follow them.
   std::span<const double> channels = {};
 };
 

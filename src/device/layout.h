@@ -1,5 +1,5 @@
 #pragma once
-// shaders/shared/layout.glsl as C++: what solvers leave in buffers and pictures read there.
+// shaders/shared/layout.glsl as C++: what solvers leave in buffers and images read there.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 #pragma once
-// States as kernels and pictures hold them, in single precision.
+// States as kernels and images hold them, in single precision.
 #include <span>
 #include <vector>
 

@@ -90,7 +90,7 @@ void Context::start(std::string platform, Loader loader) {
     if (set_most) set_most(as_many_as_it_likes);
     break;
   }
-  // A software rasteriser's memory is the machine's, whatever its driver answers: Mesa 25's llvmpipe says
+  // A software rasterizer's memory is the machine's, whatever its driver answers: Mesa 25's llvmpipe says
   // that 32 MiB are free where 20 GiB are.
   if (info_.is_software)
     memory_query_ = 0;

@@ -20,8 +20,8 @@ namespace aspic::gl {
 /// Which device a headless context takes.
 enum class DeviceChoice {
   automatic,  ///< hardware before software, then whatever EGL offers
-  hardware,   ///< never a software rasteriser
-  software,   ///< a software rasteriser alone
+  hardware,   ///< never a software rasterizer
+  software,   ///< a software rasterizer alone
   index       ///< ContextOptions::device_index of list_devices()
 };
 

@@ -140,7 +140,7 @@ Result<std::vector<EglCandidate>> candidates(const Choice& choice) {
   }
   const DeviceChoice general = choice.device == DeviceChoice::index ? DeviceChoice::automatic : choice.device;
   if (choice.platform.empty() && client_has("EGL_EXT_platform_device")) {
-    // A hardware node that may not be opened can quietly become a rasteriser: then a later device may still
+    // A hardware node that may not be opened can quietly become a rasterizer: then a later device may still
     // be real.
     for (std::size_t i = 0; i < devices.size() && general != DeviceChoice::software; ++i)
       if (!describe_device(static_cast<int>(i), devices[i]).software) add_device(i, DeviceChoice::hardware);
@@ -177,7 +177,7 @@ std::string missing_resource() {
   return "";
 }
 
-/// Mesa's software rasterisers divide by zero with another width than these.
+/// Mesa's software rasterizers divide by zero with another width than these.
 bool vector_width_crashes() {
   const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
   const std::string_view text = width ? width : "";

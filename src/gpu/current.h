@@ -8,7 +8,7 @@ namespace aspic::gl {
 
 /// Makes a context current for as long as it lives, and then the one that was current before. Nothing but a
 /// comparison happens where the context is current already. Every public call of what owns objects of OpenGL
-/// begins with one, so that any number of solvers and pictures may be used in turn. Denormal numbers are
+/// begins with one, so that any number of solvers and images may be used in turn. Denormal numbers are
 /// flushed meanwhile, on the host and by software rasterizers that compute on this thread.
 class Current {
  public:

@@ -40,7 +40,7 @@ bool is_software_renderer(std::string_view renderer) {
   std::string lower(renderer);
   std::ranges::transform(lower, lower.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  // The names under which Mesa, Google's, Microsoft's and Apple's rasterisers present themselves.
+  // The names under which Mesa, Google's, Microsoft's and Apple's rasterizers present themselves.
   for (const char* name : {"llvmpipe", "softpipe", "swrast", "lavapipe", "swiftshader", "software rasterizer",
                            "swr (", "gdi generic", "basic render", "apple software"})
     if (lower.find(name) != std::string::npos) return true;

@@ -30,13 +30,13 @@ struct DeviceInfo {
   std::string version;       ///< GL_VERSION
   std::string glsl_version;  ///< GL_SHADING_LANGUAGE_VERSION
   std::string platform;      ///< how the context was reached, e.g. "EGL device 0" or "window"
-  bool is_software = false;  ///< a software rasteriser, by its renderer's name
+  bool is_software = false;  ///< a software rasterizer, by its renderer's name
   bool debug = false;        ///< the context reports through KHR_debug
   bool robust = false;       ///< the context reports a lost device
   DeviceLimits limits;
 };
 
-/// Whether a GL_RENDERER names a software rasteriser (llvmpipe, softpipe, swrast, lavapipe, SwiftShader, …).
+/// Whether a GL_RENDERER names a software rasterizer (llvmpipe, softpipe, swrast, lavapipe, SwiftShader, …).
 bool is_software_renderer(std::string_view renderer);
 
 /// Reads vendor, renderer, versions and limits of the current context; platform, debug and robust stay the

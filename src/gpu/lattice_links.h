@@ -1,5 +1,5 @@
 #pragma once
-// The neighbours of lattice particles as GLSL.
+// The neighbors of lattice particles as GLSL.
 #include <string>
 
 namespace aspic::gl {

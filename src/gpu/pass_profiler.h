@@ -21,7 +21,7 @@ struct PassTime {
   double processor_milliseconds = 0.0;  ///< of all threads of this process, likewise; 0 without waiting
 };
 
-/// Whether every stamp waits until the device has done what was queued before it. Software rasterisers need
+/// Whether every stamp waits until the device has done what was queued before it. Software rasterizers need
 /// that: they draw an image tile by tile, all its passes together, and stamps in between mean nothing.
 enum class PassStamps { queued, waiting };
 

@@ -45,7 +45,7 @@ void read_pixels(const Framebuffer& source, void* place) {
   glReadPixels(0, 0, source.width(), source.height(), GL_RGBA, GL_UNSIGNED_BYTE, place);
 }
 
-Error lost_picture(const Context& context) {
+Error lost_image(const Context& context) {
   return fail(ErrorCode::no_device, "Cannot read back an image: the device {} was lost.",
               context.info().renderer);
 }
@@ -61,7 +61,7 @@ Status read_rgb(Context& context, const Framebuffer& source, std::vector<std::by
   assert(rgb.size() == 3 * width * height);
   scratch.resize(stored_channels * width * height);
   read_pixels(source, scratch.data());
-  if (context.lost()) return lost_picture(context);
+  if (context.lost()) return lost_image(context);
   put_rgb(scratch.data(), width, height, rgb.data());
   return {};
 }
@@ -128,13 +128,13 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
                              static_cast<GLsizeiptr>(stored_channels * width * height), GL_MAP_READ_BIT));
   if (!pixels) {
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    return lost_picture(*context_);
+    return lost_image(*context_);
   }
   rgb.resize(3 * width * height);
   put_rgb(pixels, width, height, rgb.data());
   const bool kept = glUnmapBuffer(GL_PIXEL_PACK_BUFFER) == GL_TRUE;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  if (!kept || context_->lost()) return lost_picture(*context_);  // meanwhile: what was read may be anything
+  if (!kept || context_->lost()) return lost_image(*context_);  // meanwhile: what was read may be anything
   return {};
 }
 

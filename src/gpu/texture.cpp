@@ -112,23 +112,23 @@ void Texture::bind(std::uint32_t unit) const {
   glActiveTexture(GL_TEXTURE0);
 }
 
-Result<Framebuffer> Framebuffer::create(Context& context, const Texture& colour, const Texture* depth) {
+Result<Framebuffer> Framebuffer::create(Context& context, const Texture& color, const Texture* depth) {
   Framebuffer result;
-  result.width_ = colour.width();
-  result.height_ = colour.height();
+  result.width_ = color.width();
+  result.height_ = color.height();
   GLuint id = 0;
   glGenFramebuffers(1, &id);
   result.name_ = Name(context, id, [](std::uint32_t owned) { glDeleteFramebuffers(1, &owned); });
   glBindFramebuffer(GL_FRAMEBUFFER, id);
-  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, colour.id(), 0);
+  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, color.id(), 0);
   if (depth) glFramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth->id(), 0);
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
     return fail(ErrorCode::no_device,
                 "{} cannot draw into an image of {} x {} pixels with {} sample{} (framebuffer "
                 "status 0x{:04x}).",
-                context.info().renderer, colour.width(), colour.height(), colour.settings().samples,
-                colour.settings().samples == 1 ? "" : "s", status);
+                context.info().renderer, color.width(), color.height(), color.settings().samples,
+                color.settings().samples == 1 ? "" : "s", status);
   return result;
 }
 
@@ -137,7 +137,7 @@ void Framebuffer::bind() const {
   glViewport(0, 0, width_, height_);
 }
 
-void Framebuffer::copy_colour_from(const Framebuffer& source) const {
+void Framebuffer::copy_color_from(const Framebuffer& source) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
   const bool same = source.width_ == width_ && source.height_ == height_;
@@ -145,7 +145,7 @@ void Framebuffer::copy_colour_from(const Framebuffer& source) const {
                     same ? GL_NEAREST : GL_LINEAR);
 }
 
-void Framebuffer::copy_colour_from(const Framebuffer& source, const PixelBox& box) const {
+void Framebuffer::copy_color_from(const Framebuffer& source, const PixelBox& box) const {
   assert(source.width_ == width_ && source.height_ == height_);
   if (box.empty()) return;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
@@ -172,8 +172,8 @@ void Framebuffer::fill(const PixelBox& box, const std::array<float, 3>& stored) 
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
   glEnable(GL_SCISSOR_TEST);
   glScissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
-  const GLfloat colour[4] = {stored[0], stored[1], stored[2], 1.0f};
-  glClearBufferfv(GL_COLOR, 0, colour);
+  const GLfloat color[4] = {stored[0], stored[1], stored[2], 1.0f};
+  glClearBufferfv(GL_COLOR, 0, color);
   glDisable(GL_SCISSOR_TEST);
 }
 

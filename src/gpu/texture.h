@@ -15,7 +15,7 @@ namespace aspic::gl {
 /// How a texel is stored.
 enum class TexelFormat {
   r8,       ///< one channel 0…1
-  srgba8,   ///< colour encoded as sRGB, linear to shaders and blending; alpha linear
+  srgba8,   ///< color encoded as sRGB, linear to shaders and blending; alpha linear
   r16f,     ///< one half float
   rg16f,    ///< two half floats
   rgba16f,  ///< four
@@ -79,24 +79,24 @@ class Framebuffer {
   /// An empty handle: id 0, which is GL's own name for a window's framebuffer.
   Framebuffer() = default;
 
-  /// Joins a colour texture and, unless null, a depth texture.
+  /// Joins a color texture and, unless null, a depth texture.
   /// Error (no_device): the driver cannot draw into this combination.
-  static Result<Framebuffer> create(Context& context, const Texture& colour, const Texture* depth);
+  static Result<Framebuffer> create(Context& context, const Texture& color, const Texture* depth);
 
   /// Draws go here from now on, to all of it.
   void bind() const;
-  /// Copies the colour of `source`: resolves samples where it has more than one (sizes must agree then),
+  /// Copies the color of `source`: resolves samples where it has more than one (sizes must agree then),
   /// filters linearly where sizes differ. Does not bind.
-  void copy_colour_from(const Framebuffer& source) const;
+  void copy_color_from(const Framebuffer& source) const;
   /// The same for a part of framebuffers of one size.
-  void copy_colour_from(const Framebuffer& source, const PixelBox& box) const;
+  void copy_color_from(const Framebuffer& source, const PixelBox& box) const;
 
-  /// Copies the colour of `source`, of one sample, to a place within [pixels from left and bottom], values as
+  /// Copies the color of `source`, of one sample, to a place within [pixels from left and bottom], values as
   /// stored. Does not bind.
   void place(const Framebuffer& source, int left, int bottom) const;
-  /// Fills the colour with zeros. Does not bind.
+  /// Fills the color with zeros. Does not bind.
   void clear() const;
-  /// Fills a part with a colour as it is stored, opaque. Does not bind.
+  /// Fills a part with a color as it is stored, opaque. Does not bind.
   void fill(const PixelBox& box, const std::array<float, 3>& stored) const;
 
   std::uint32_t id() const { return name_.id(); }

@@ -78,9 +78,9 @@ void fill_balls(layout::Simulation& block, const Model& model) {
   block.mark_shift = mark_shift(model.ball_count(), model.particle_count());
   double radius = 0.0;
   for (const Ball& ball : model.balls) radius = std::max(radius, ball.radius);
-  // A ball's reach to another, and twice its reach to a particle, and a quarter more, so that neighbours are
+  // A ball's reach to another, and twice its reach to a particle, and a quarter more, so that neighbors are
   // never two cells apart, or one and a half, rounding included.
-  block.ball_cells_per_metre = static_cast<float>(1.0 / (2.5 * (radius + model.contact.distance)));
+  block.ball_cells_per_meter = static_cast<float>(1.0 / (2.5 * (radius + model.contact.distance)));
 }
 
 std::uint64_t ball_bytes(const ModelCounts& counts) {

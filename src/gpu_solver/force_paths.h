@@ -18,7 +18,7 @@ struct ForcePathRow {
   std::string_view name;  ///< word of --force-path and of reports
   bool implicit = false;  ///< the kernels of implicit Euler take this path too
   IncidentWords words =
-      IncidentWords::neighbours;         ///< of a model and a method that go with them: incident_words()
+      IncidentWords::neighbors;          ///< of a model and a method that go with them: incident_words()
   std::string_view spring_kernel = {};   ///< one invocation per spring, first in a stage; empty: none
   std::string_view spring_title = {};    ///< of that pass, in profiles
   std::string_view lattice_kernel = {};  ///< complete cubes, to the end of the stage; empty: as all else

@@ -44,7 +44,7 @@ IncidentWords incident_words(const Model& model, const ForcePathRow& path) {
   if (path.words != IncidentWords::beside_cells) return path.words;
   if (device_method(model.simulation.integrator, model.particle_count()).cells && has_cells(model))
     return IncidentWords::beside_cells;
-  return has_lattices(model) ? IncidentWords::beside_lattices : IncidentWords::neighbours;
+  return has_lattices(model) ? IncidentWords::beside_lattices : IncidentWords::neighbors;
 }
 
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, SharedModel shared_model,

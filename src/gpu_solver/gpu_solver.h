@@ -29,8 +29,8 @@ struct GpuOptions {
   ForcePath force_path = ForcePath::automatic;
   /// Invocations per work group, 1…1024; 0: by device (group_size.h). Never affects the bits.
   std::uint32_t group_size = 0;
-  /// Particles that an invocation of the path lattice takes, 1 or 4; 0: 4 on software rasterisers, which then
-  /// read a neighbour once for several, and 1 on hardware, whose lanes then read neighbouring particles.
+  /// Particles that an invocation of the path lattice takes, 1 or 4; 0: 4 on software rasterizers, which then
+  /// read a neighbor once for several, and 1 on hardware, whose lanes then read neighboring particles.
   /// Never affects the bits.
   std::uint32_t lattice_run = 0;
   /// Stages of explicit methods in two passes, forces and the rest, as where bodies touch: scenes on other

@@ -9,18 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "io/film_format.h"
+#include "io/video_format.h"
 
 namespace aspic {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// frame-, six digits or more, the ending of a picture format.
+/// frame-, six digits or more, the ending of an image format.
 bool is_frame_name(const std::string& name) {
   const fs::path path(name);
   const std::string stem = path.stem().string();
-  const FilmFormat* const format = find_film_format(path.extension().string());
+  const VideoFormat* const format = find_video_format(path.extension().string());
   if (!format || !format->is_directory() || path.extension() != format->ending) return false;
   return stem.size() >= 12 && stem.starts_with("frame-") &&
          std::all_of(stem.begin() + 6, stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -37,7 +37,7 @@ Result<std::vector<fs::path>> frames_in(const std::string& directory) {
 
 class FrameDirectory : public FrameSink {
  public:
-  FrameDirectory(std::string directory, const FilmFormat& format, const PictureSize& size,
+  FrameDirectory(std::string directory, const VideoFormat& format, const ImageSize& size,
                  std::vector<fs::path> earlier)
       : directory_(std::move(directory)), format_(format), size_(size), earlier_(std::move(earlier)) {}
 
@@ -48,7 +48,7 @@ class FrameDirectory : public FrameSink {
     ASPIC_CHECK(file.write(content));
     ASPIC_CHECK(file.commit());
     ++next_;
-    // The first picture has replaced one of its name; the others go.
+    // The first image has replaced one of its name; the others go.
     for (const fs::path& frame : std::exchange(earlier_, {}))
       if (frame.filename() != fs::path(name).filename() && ::unlink(frame.c_str()) != 0)
         return file_error("remove", frame.string(), errno);
@@ -60,16 +60,16 @@ class FrameDirectory : public FrameSink {
 
  private:
   std::string directory_;
-  const FilmFormat& format_;
-  PictureSize size_;
-  std::vector<fs::path> earlier_;  // pictures of another run
+  const VideoFormat& format_;
+  ImageSize size_;
+  std::vector<fs::path> earlier_;  // images of another run
   std::uint64_t next_ = 0;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& directory,
-                                                        const FilmFormat& format, const PictureSize& size,
+                                                        const VideoFormat& format, const ImageSize& size,
                                                         Overwrite overwrite) {
   if (::mkdir(directory.c_str(), 0777) != 0 && errno != EEXIST)
     return file_error("make the directory", directory, errno);

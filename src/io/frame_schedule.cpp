@@ -13,7 +13,7 @@ FrameSchedule::FrameSchedule(double timestep, std::uint64_t first_step, std::uin
       steps_per_frame_(std::clamp(speed / fps / timestep, 0x1p-53, 0x1p63)) {
   assert(timestep > 0.0 && fps > 0.0 && speed > 0.0 && first_step <= last_step);
   const double frames = static_cast<double>(last_ - first_) / steps_per_frame_;
-  // A whole number of pictures up to rounding is meant to be whole.
+  // A whole number of images up to rounding is meant to be whole.
   const double nearest = std::round(frames);
   const double whole =
       std::abs(frames - nearest) < 1e-9 * std::max(frames, 1.0) ? nearest : std::ceil(frames);

@@ -5,12 +5,12 @@
 
 #include "base/files.h"
 #include "io/child_process.h"
-#include "io/film_format.h"
+#include "io/video_format.h"
 
 namespace aspic {
 namespace {
 
-/// ffmpeg's options up to the size of the pictures it reads.
+/// ffmpeg's options up to the size of the images it reads.
 constexpr const char* raw_input[] = {"ffmpeg",   "-hide_banner",  "-nostdin", "-loglevel",
                                      "error",    "-xerror",       "-y",       "-f",
                                      "rawvideo", "-pixel_format", "rgb24",    "-video_size"};
@@ -30,7 +30,7 @@ std::string failure_text(const ChildProcess& ffmpeg, const ChildProcess::End& en
 }
 
 /// What is wrong with a video, as far as its beginning and ffprobe tell: a sentence, or nothing.
-std::string fault_of(const std::string& file, const FilmFormat& format) {
+std::string fault_of(const std::string& file, const VideoFormat& format) {
   const auto start = read_regular_file(file, format.mark_at + format.mark.size());
   if (!start) return start.error().what + " ";
   if (start->size == 0) return "ffmpeg reported success, but wrote an empty file. ";
@@ -46,7 +46,7 @@ std::string fault_of(const std::string& file, const FilmFormat& format) {
 
 class VideoFile : public FrameSink {
  public:
-  VideoFile(AtomicFile file, ChildProcess ffmpeg, const FilmFormat& format)
+  VideoFile(AtomicFile file, ChildProcess ffmpeg, const VideoFormat& format)
       : file_(std::move(file)), ffmpeg_(std::move(ffmpeg)), format_(format), path_(file_->path()) {}
 
   Status write(std::span<const std::byte> rgb) override {
@@ -72,7 +72,7 @@ class VideoFile : public FrameSink {
     reason_ =
         advised(fail(ErrorCode::io, "cannot make the video {}: {}", path_, why),
                 {advice("check the disk, and that ffmpeg has the encoder (the Debian package ffmpeg has it)"),
-                 {RemedyKind::write_pictures}});
+                 {RemedyKind::write_images}});
     ffmpeg_.reset();
     file_.reset();  // removes the temporary file
   }
@@ -80,15 +80,15 @@ class VideoFile : public FrameSink {
 
   std::optional<AtomicFile> file_;
   std::optional<ChildProcess> ffmpeg_;
-  const FilmFormat& format_;
+  const VideoFormat& format_;
   std::string path_;
   Error reason_ = {ErrorCode::io, ""};  // why there is no ffmpeg_
 };
 
 }  // namespace
 
-Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const FilmFormat& format,
-                                              const PictureSize& size, double fps, Overwrite overwrite) {
+Result<std::unique_ptr<FrameSink>> open_video_file(const std::string& path, const VideoFormat& format,
+                                                   const ImageSize& size, double fps, Overwrite overwrite) {
   ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
   if (file.temporary_path().empty())
     return fail(ErrorCode::io, "{} is a device or a pipe, but a video needs a file.", path);
@@ -96,7 +96,7 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Fil
   words.insert(words.end(), {fmt::format("{}x{}", size.width, size.height), "-framerate",
                              fmt::format("{}", fps), "-i", "pipe:0", "-an"});
   if (format.even_sides) {
-    // sRGB in, BT.709 video range out. New versions of ffmpeg take primaries and transfer from the pictures.
+    // sRGB in, BT.709 video range out. New versions of ffmpeg take primaries and transfer from the images.
     words.insert(words.end(), {"-vf",
                                "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd,format=yuv420p,"
                                "setparams=color_primaries=bt709:color_trc=iec61966-2-1",
@@ -110,7 +110,7 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Fil
     return advised(
         fail(ffmpeg.error(), "cannot make the video {}: {} Videos need the program ffmpeg on PATH.", path,
              ffmpeg.error().what),
-        {advice("install it with apt install ffmpeg"), {RemedyKind::write_pictures}});
+        {advice("install it with apt install ffmpeg"), {RemedyKind::write_images}});
   return std::unique_ptr<FrameSink>(std::make_unique<VideoFile>(std::move(file), std::move(*ffmpeg), format));
 }
 

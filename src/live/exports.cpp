@@ -27,7 +27,7 @@ int done(const Status& status) {
   return 1;
 }
 
-/// What of the model a page draws and colours by, as JSON.
+/// What of the model a page draws and colors by, as JSON.
 std::string facts() {
   const Model& model = run->model();
   std::string classes, radii;

@@ -1,5 +1,5 @@
 #pragma once
-// A run of the reference that obeys a page: made of a scene's text, advanced from picture to picture, changed
+// A run of the reference that obeys a page: made of a scene's text, advanced from image to image, changed
 // on its way. Browsers have it as WebAssembly (exports.cpp), the tests as it is.
 #include <array>
 #include <cstdint>

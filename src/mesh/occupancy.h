@@ -30,7 +30,7 @@ struct OccupancyGrid {
     return i >= 0 && i < cells[0] && j >= 0 && j < cells[1] && k >= 0 && k < cells[2];
   }
   bool is_full(int i, int j, int k) const { return contains(i, j, k) && full[index(i, j, k)] != 0; }
-  Vec3 centre(int i, int j, int k) const { return origin + size * Vec3{i + 0.5, j + 0.5, k + 0.5}; }
+  Vec3 center(int i, int j, int k) const { return origin + size * Vec3{i + 0.5, j + 0.5, k + 0.5}; }
   std::size_t full_count() const;
   double volume() const { return static_cast<double>(full_count()) * size * size * size; }  ///< [m³]
 };

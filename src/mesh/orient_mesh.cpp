@@ -24,7 +24,7 @@ struct Side {
 };
 
 /// Across a side of a face.
-struct Neighbour {
+struct Neighbor {
   std::uint32_t face = no_face;
   bool agrees = true;  ///< both run through the side in opposite directions, as faces of one surface do
 };
@@ -47,7 +47,7 @@ constexpr double least_bulge = 0.1;
 class Orientation {
  public:
   Orientation(TriangleMesh& mesh, MeshRepairs& repairs) : mesh_(mesh), repairs_(repairs) {
-    neighbours_.resize(mesh.triangles.size());
+    neighbors_.resize(mesh.triangles.size());
     flipped_.assign(mesh.triangles.size(), false);
     link();
     walk();
@@ -76,8 +76,8 @@ class Orientation {
       if (end - i == 2) {
         const Side &a = sides[i], &b = sides[i + 1];
         const bool agrees = a.rising != b.rising;
-        neighbours_[a.face][a.side] = {b.face, agrees};
-        neighbours_[b.face][b.side] = {a.face, agrees};
+        neighbors_[a.face][a.side] = {b.face, agrees};
+        neighbors_[b.face][b.side] = {a.face, agrees};
       }
       i = end;
     }
@@ -95,7 +95,7 @@ class Orientation {
       order_.push_back(start);
       for (std::size_t at = patch.first; at < order_.size(); ++at) {
         const std::uint32_t face = order_[at];
-        for (const Neighbour& n : neighbours_[face]) {
+        for (const Neighbor& n : neighbors_[face]) {
           if (n.face == no_face) {
             patch.closed = false;
           } else if (!reached[n.face]) {
@@ -130,7 +130,7 @@ class Orientation {
 
   void measure(Patch& patch) {
     double area = 0.0, as_in_file = 0.0, volume = 0.0;
-    Vec3 centre;
+    Vec3 center;
     const auto faces = std::span(order_).subspan(patch.first, patch.count);
     for (const std::uint32_t face : faces) {
       const auto& [a, b, c] = mesh_.triangles[face];
@@ -138,13 +138,13 @@ class Orientation {
       const double twice = length(area_vector(mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]));
       area += 0.5 * twice;
       if (!flipped_[face]) as_in_file += 0.5 * twice;
-      centre = centre + (twice / 6.0) * (mesh_.vertices[a] + mesh_.vertices[b] + mesh_.vertices[c]);
+      center = center + (twice / 6.0) * (mesh_.vertices[a] + mesh_.vertices[b] + mesh_.vertices[c]);
     }
-    if (area > 0.0) centre = centre / area;
+    if (area > 0.0) center = center / area;
     for (const std::uint32_t face : faces) {
       const auto [a, b, c] = face_of(face, flipped_[face]);
       volume +=
-          dot(mesh_.vertices[a] - centre, cross(mesh_.vertices[b] - centre, mesh_.vertices[c] - centre)) /
+          dot(mesh_.vertices[a] - center, cross(mesh_.vertices[b] - center, mesh_.vertices[c] - center)) /
           6.0;
     }
     // A sphere of area A has the volume A^(3/2) / (6√π).
@@ -198,9 +198,9 @@ class Orientation {
 
   TriangleMesh& mesh_;
   MeshRepairs& repairs_;
-  std::vector<std::array<Neighbour, 3>> neighbours_;  // by face and side
-  std::vector<bool> flipped_;                         // to agree with the first face of its patch
-  std::vector<std::uint32_t> order_;                  // faces, patch by patch
+  std::vector<std::array<Neighbor, 3>> neighbors_;  // by face and side
+  std::vector<bool> flipped_;                       // to agree with the first face of its patch
+  std::vector<std::uint32_t> order_;                // faces, patch by patch
   std::vector<Patch> patches_;
 };
 

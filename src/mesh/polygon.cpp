@@ -12,7 +12,7 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
-/// Twice the area of a triangle in the plane, positive anticlockwise.
+/// Twice the area of a triangle in the plane, positive counterclockwise.
 double area(const Point& a, const Point& b, const Point& c) {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
@@ -27,7 +27,7 @@ class Ears {
     }
   }
 
-  /// The corner of the next ear, from `from` on: an ear, else one on a line with its neighbours, else any.
+  /// The corner of the next ear, from `from` on: an ear, else one on a line with its neighbors, else any.
   std::size_t find(std::size_t from) const {
     std::size_t flat = at_.size();
     for (std::size_t i = from;;) {

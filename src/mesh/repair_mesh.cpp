@@ -114,7 +114,7 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh) {
     weld(made, repairs);
     drop_collapsed(made, repairs);
     drop_doubled(made, repairs);
-    orient_mesh(made, repairs);  // over faces without area too: they connect their neighbours
+    orient_mesh(made, repairs);  // over faces without area too: they connect their neighbors
     drop_flat(made, repairs);
     compact(made);
   }
@@ -134,7 +134,7 @@ std::vector<std::string> sentences_of(const MeshRepairs& r) {
   if (r.turned > 0)
     said.push_back(r.turned == r.faces
                        ? "turned all faces: the mesh was inside out"
-                       : fmt::format("turned {} of {} faces to agree with their neighbours or outwards",
+                       : fmt::format("turned {} of {} faces to agree with their neighbors or outwards",
                                      r.turned, r.faces));
   say(r.cavities, "kept {} closed parts inside others as cavities");
   say(r.open_edges, "{} edges have one face: holes are closed where the winding number is ½");

@@ -16,7 +16,7 @@ struct MeshRepairs {
   std::size_t not_finite = 0;     ///< faces left out: a corner is not finite, or farther than 1e12 from 0
   std::size_t zero_area = 0;      ///< faces left out
   std::size_t doubled = 0;        ///< faces left out: another one has the same corners
-  std::size_t turned = 0;         ///< faces turned to agree with their neighbours, or outwards
+  std::size_t turned = 0;         ///< faces turned to agree with their neighbors, or outwards
   std::size_t patches = 0;        ///< parts connected over edges that have two faces
   std::size_t cavities = 0;       ///< closed parts inside another one and turned against it: hollows
   std::size_t open_edges = 0;     ///< edges of one face: rims of holes
@@ -35,7 +35,7 @@ struct RepairedMesh {
 };
 
 /// Welds vertices that are equal to a millionth of the longest extent, leaves out faces without area or with
-/// a corner that is not finite, and doubled ones; orients faces by their neighbours and each part outwards,
+/// a corner that is not finite, and doubled ones; orients faces by their neighbors and each part outwards,
 /// except a closed part inside another one that the file turns against it, which is a cavity. Of faces over
 /// the same corners one is kept; where less than half of the mesh is doubled and the two are turned against
 /// each other, none: they are a wall inside. Vertices that no face uses are left out. The mesh may come back

@@ -72,9 +72,9 @@ double winding_number(const TriangleMesh& mesh, const Vec3& point) {
   return sum / four_pi;
 }
 
-/// A triangle's centre, and its number for an order that does not depend on the library's sort.
+/// A triangle's center, and its number for an order that does not depend on the library's sort.
 struct WindingTree::Item {
-  Vec3 centre;
+  Vec3 center;
   std::uint32_t number;
   Corners corners;
 };
@@ -100,14 +100,14 @@ void WindingTree::make_node(std::vector<Item>& items, std::size_t first, std::si
     std::ranges::sort(mine, {}, &Item::number);
     for (const Item& item : mine) corners_.push_back(item.corners);
   } else {
-    Bounds centres;
-    for (const Item& item : mine) centres.add(item.centre);
-    const Vec3 extent = centres.extent();
+    Bounds centers;
+    for (const Item& item : mine) centers.add(item.center);
+    const Vec3 extent = centers.extent();
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const std::size_t half = count / 2;
     std::ranges::nth_element(
         mine, mine.begin() + static_cast<std::ptrdiff_t>(half), [axis](const Item& a, const Item& b) {
-          return std::make_tuple(a.centre[axis], a.number) < std::make_tuple(b.centre[axis], b.number);
+          return std::make_tuple(a.center[axis], a.number) < std::make_tuple(b.center[axis], b.number);
         });
     make_node(items, first, half);
     make_node(items, first + half, count - half);
@@ -123,26 +123,26 @@ void WindingTree::sum_moments(Node& node, std::size_t count) const {
   for (const Corners& k : all) {
     const double weight = length(area_vector(k.a, k.b, k.c));
     area += weight;
-    node.centre = node.centre + (weight / 3.0) * (k.a + k.b + k.c);
+    node.center = node.center + (weight / 3.0) * (k.a + k.b + k.c);
   }
-  node.centre = area > 0.0 ? node.centre / area : all.front().a;
+  node.center = area > 0.0 ? node.center / area : all.front().a;
   double radius = 0.0;  // squared
   for (const Corners& k : all) {
     const Vec3 n = 0.5 * area_vector(k.a, k.b, k.c), middle = (k.a + k.b + k.c) / 3.0,
-               d = middle - node.centre;
+               d = middle - node.center;
     node.dipole = node.dipole + n;
     for (int i = 0; i < 9; ++i) node.first[static_cast<std::size_t>(i)] += n[i / 3] * d[i % 3];
     // The mean of d ⊗ d over a triangle is that of its middle and a twelfth of its corners' from there.
     add_second(node.second.traces, node.second.cubic, n, d, 1.0);
     for (const Vec3& corner : {k.a, k.b, k.c}) {
       add_second(node.second.traces, node.second.cubic, n, corner - middle, 1.0 / 12.0);
-      radius = std::max(radius, dot(corner - node.centre, corner - node.centre));
+      radius = std::max(radius, dot(corner - node.center, corner - node.center));
     }
   }
   node.near = far_ratio * far_ratio * radius;
 }
 
-/// The Taylor series of Σ n·r/|r|³ about the node's centre, r from the point to it.
+/// The Taylor series of Σ n·r/|r|³ about the node's center, r from the point to it.
 double WindingTree::far(const Node& node, const Vec3& r, double squared) const {
   const auto& f = node.first;
   const auto& c = node.second.cubic;
@@ -162,7 +162,7 @@ double WindingTree::at(const Vec3& point) const {
   double angles = 0.0;
   for (std::uint32_t i = 0; i < nodes_.size();) {
     const Node& node = nodes_[i];
-    const Vec3 r = node.centre - point;
+    const Vec3 r = node.center - point;
     const double squared = dot(r, r);
     if (squared > node.near) {
       angles += far(node, r, squared);

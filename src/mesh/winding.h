@@ -1,5 +1,5 @@
 #pragma once
-// How often a mesh winds around a point: the generalised winding number (Jacobson, Kavan, Sorkine-Hornung,
+// How often a mesh winds around a point: the generalized winding number (Jacobson, Kavan, Sorkine-Hornung,
 // 2013), by solid angles and a tree (Barill, Dickson, Schmidt, Levin, Jacobson: Fast winding numbers for
 // soups and clouds, 2018). It is 1 inside a closed mesh that is oriented outwards and 0 outside; holes make
 // it change gradually.
@@ -36,14 +36,14 @@ class WindingTree {
   struct Corners {
     Vec3 a, b, c;
   };
-  /// Σ over triangles of n ⊗ d ⊗ d, n their area vectors and d from the node's centre, as far as it acts.
+  /// Σ over triangles of n ⊗ d ⊗ d, n their area vectors and d from the node's center, as far as it acts.
   struct Second {
     Vec3 traces;  ///< 2·Σ (n·d) d + Σ |d|² n
     std::array<double, 10> cubic =
         {};  ///< of Σ (n·r)(d·r)²: xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz
   };
   struct Node {
-    Vec3 centre;                       ///< of its triangles, weighted by area
+    Vec3 center;                       ///< of its triangles, weighted by area
     double near = 0.0;                 ///< square of the distance from which on it is taken as one
     Vec3 dipole;                       ///< Σ n
     std::array<double, 9> first = {};  ///< Σ n ⊗ d, by rows

@@ -150,7 +150,7 @@ struct ActuatedBody {
   std::vector<std::uint8_t> material;         ///< by cell of the lattice; none: all of the first
   std::vector<std::string> names = {""};      ///< of materials
   std::vector<double> moduli = {1.0};         ///< of these, to weigh them
-  Vec3 centre;                                ///< [m]
+  Vec3 center;                                ///< [m]
   RotationSettings rotation;
 
   std::size_t cell_index(const Lattice::Place& cell) const {
@@ -208,12 +208,12 @@ std::optional<ActuatedBody> look_at(const ModelSettings& settings, const BodyRow
   ActuatedBody body;
   if (row.list.key == "cloth") {
     const ClothSettings& cloth = settings.cloths[index];
-    body.centre = cloth.position;
+    body.center = cloth.position;
     body.rotation = cloth.rotation;
     if (cloth.material) body.names = {cloth.material->name};
   } else {
     const GoalNetSettings& net = settings.goal_nets[index];
-    body.centre = net.position;
+    body.center = net.position;
     if (net.material) body.names = {net.material->name};
   }
   return body;
@@ -550,7 +550,7 @@ void ActuationBuilder::add_lattice(Model& model, OfBody& of, const Body& body) {
 void ActuationBuilder::add_springs(Model& model, OfBody& of, const Body& body) {
   const Rotation back(of.seen.rotation.axis, -of.seen.rotation.angle);
   const auto own = [&](std::uint32_t particle) {
-    return back(model.initial_position[particle] - of.seen.centre);
+    return back(model.initial_position[particle] - of.seen.center);
   };
   // Middles and directions that differ by rounding alone are the same.
   const auto snapped = [&](double x) { return std::round(x * 0x1p20) * 0x1p-20; };

@@ -17,7 +17,7 @@ struct FacesOfBody {
 
 struct BallFaces {
   std::vector<FacesOfBody> bodies;                      ///< in the order of the model's
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< particles, anticlockwise seen from outside
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< particles, counterclockwise seen from outside
 };
 
 /// Triangles in a row that are passed over as one where they are far.

@@ -1,6 +1,6 @@
 #pragma once
 // Bodies of cells as kernels of their lattices take them. A block is four places in a row of the lattice, of
-// which some may be empty. A map of all blocks says where the particle at a place is, so that neighbours are
+// which some may be empty. A map of all blocks says where the particle at a place is, so that neighbors are
 // found as in a box; which springs a particle has is a pattern, which all particles that have the same share.
 #include <array>
 #include <cstdint>

@@ -87,8 +87,8 @@ Status add_cloth(Model& model, const ModelSettings& settings, const ClothSetting
     for (int j = 0; j < h; ++j) {
       const int local = i * h + j;
       const bool held = pinned[static_cast<std::size_t>(local)];
-      const Vec3 from_centre = {i * sx - cloth.size[0] / 2.0, j * sy - cloth.size[1] / 2.0, 0.0};
-      model.initial_position.push_back(cloth.position + turned(from_centre));
+      const Vec3 from_center = {i * sx - cloth.size[0] / 2.0, j * sy - cloth.size[1] / 2.0, 0.0};
+      model.initial_position.push_back(cloth.position + turned(from_center));
       model.initial_velocity.push_back(held ? Vec3{} : cloth.velocity);
       model.mass.push_back(sheet.mass);
       model.inverse_mass.push_back(held ? 0.0 : 1.0 / sheet.mass);

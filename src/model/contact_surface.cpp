@@ -8,7 +8,7 @@
 namespace aspic {
 namespace {
 
-/// k of the springs between neighbours, and the least of their rest lengths.
+/// k of the springs between neighbors, and the least of their rest lengths.
 void take_springs(const Model& model, const Body& body, ContactBody& contact) {
   contact.spacing = std::numeric_limits<double>::infinity();
   for (std::uint32_t c = body.first_class; c < body.first_class + body.class_count; ++c) {

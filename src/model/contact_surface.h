@@ -10,7 +10,7 @@
 
 namespace aspic {
 
-/// A point of a body for contact: a particle of its surface, or a point between two neighbours on a
+/// A point of a body for contact: a particle of its surface, or a point between two neighbors on a
 /// sharp edge.
 struct SurfacePoint {
   std::array<std::uint32_t, 2> carrier = {};  ///< particles; a particle's own point names it twice
@@ -19,7 +19,7 @@ struct SurfacePoint {
   bool single() const { return carrier[0] == carrier[1]; }
 };
 
-/// Half a quad of a surface, anticlockwise seen from outside.
+/// Half a quad of a surface, counterclockwise seen from outside.
 struct SurfaceTriangle {
   std::array<std::uint32_t, 3> corner = {};  ///< particles
   std::uint32_t side = 0;                    ///< the group of the surface's quads that it belongs to
@@ -67,7 +67,7 @@ struct ContactSurfaces {
   std::uint32_t body_of_triangle(std::uint32_t triangle) const;
 };
 
-/// Points on a sharp edge between two neighbouring particles.
+/// Points on a sharp edge between two neighboring particles.
 inline constexpr int points_on_edge = 2;
 
 ContactSurfaces contact_surfaces(const Model& model);

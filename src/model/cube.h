@@ -13,7 +13,7 @@ namespace aspic {
 /// shear 6n(n−1)² + 4(n−1)³, bending 3n²(n−2); n = 10 has 2,700 + 7,776 + 2,400.
 ModelCounts box_counts(const std::array<int, 3>& particles);
 
-/// Distance of neighbours s [m]: the longest edge over one less than its particles.
+/// Distance of neighbors s [m]: the longest edge over one less than its particles.
 double spacing_of(const CubeSettings& cube);
 /// Lengths of the edges along x, y and z [m].
 Vec3 edges_of(const CubeSettings& cube);

@@ -35,7 +35,7 @@ SpringSettings cord_springs(const GoalNetSettings& net, double length, double ma
   return {stiffness, damping_of(*net.material, stiffness, mass)};
 }
 
-/// Mass of a particle: that of all cords between neighbours, shared equally.
+/// Mass of a particle: that of all cords between neighbors, shared equally.
 double cord_mass(const GoalNetSettings& net) {
   const auto [nw, nh, nl] = net.particles;
   const int along_x = nl + 2 * (nh - 1), along_y = nl + 2 * (nw - 1), along_z = nh + nw - 1;
@@ -158,7 +158,7 @@ bool net_pinned(const std::array<int, 3>& lattice, int i, int j, int k) {
 }
 
 /// Appends the net's particles and springs to the model, springs sorted by (a, b). A spring joins two
-/// particles that lie in one face: structural neighbours along an axis, shear along the diagonals of a face's
+/// particles that lie in one face: structural neighbors along an axis, shear along the diagonals of a face's
 /// cells, bending two steps along an axis; shear and bending only if their stiffness is positive. One spring
 /// class for each type and direction, since the spacings along the axes differ. Error
 /// (scene_rejected): an unknown material.

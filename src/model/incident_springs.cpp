@@ -8,7 +8,7 @@
 namespace aspic {
 namespace {
 
-/// Words that name neighbours, and no_spring as well.
+/// Words that name neighbors, and no_spring as well.
 Status check_words(const Model& model) {
   const std::uint64_t limit = (std::uint64_t{1} << (32 - class_bits(model))) - 1;
   if (model.particle_count() <= limit) return {};
@@ -112,11 +112,11 @@ std::uint32_t class_bits(const Model& model) {
 
 Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words,
                                          const std::vector<bool>& cells) {
-  const bool neighbours = words != IncidentWords::springs, beside = is_beside(words);
+  const bool neighbors = words != IncidentWords::springs, beside = is_beside(words);
   const std::vector<WalkedRun> runs = walked_runs(model, words, cells);
   const std::vector<std::uint64_t> start = slice_starts(model, words, runs);
-  if (!neighbours) ASPIC_CHECK(check_spring_words(model));
-  if (neighbours && !(beside && start.back() == 0)) ASPIC_CHECK(check_words(model));
+  if (!neighbors) ASPIC_CHECK(check_spring_words(model));
+  if (neighbors && !(beside && start.back() == 0)) ASPIC_CHECK(check_words(model));
   ASPIC_CHECK(check_count(model, start.back()));
   const std::uint32_t bits = class_bits(model);
   IncidentSprings rows;
@@ -135,12 +135,12 @@ Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words
     rows.words[next[particle]] = word;
     next[particle] += spring_slice;
   };
-  // Springs are sorted by (a, b): this meets each particle's springs in ascending neighbour index, first
+  // Springs are sorted by (a, b): this meets each particle's springs in ascending neighbor index, first
   // those in which it is b, then those in which it is a.
   std::uint32_t index = 0;
   const auto add_spring = [&](const Spring& spring) {
-    add(spring.a, neighbours ? (spring.b << bits) | spring.spring_class : index << 1);
-    add(spring.b, neighbours ? (spring.a << bits) | spring.spring_class : (index << 1) | 1u);
+    add(spring.a, neighbors ? (spring.b << bits) | spring.spring_class : index << 1);
+    add(spring.b, neighbors ? (spring.a << bits) | spring.spring_class : (index << 1) | 1u);
     ++index;
   };
   if (beside) {
@@ -162,7 +162,7 @@ Result<std::vector<std::array<std::uint32_t, 2>>> packed_springs(const Model& mo
 }
 
 std::uint32_t highest_degree(const Model& model) {
-  return std::ranges::max(degrees(model, IncidentWords::neighbours));
+  return std::ranges::max(degrees(model, IncidentWords::neighbors));
 }
 
 }  // namespace aspic

@@ -1,7 +1,7 @@
 #pragma once
-// The springs of a model as kernels walk them: per particle, in ascending neighbour index, one word a spring.
+// The springs of a model as kernels walk them: per particle, in ascending neighbor index, one word a spring.
 // Particles are grouped in slices of spring_slice, whose words are interleaved: the first spring of each
-// particle, then the second, and so on, so that neighbouring invocations read neighbouring words.
+// particle, then the second, and so on, so that neighboring invocations read neighboring words.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@ namespace aspic {
 
 /// What a word says of a spring at one of its ends.
 enum class IncidentWords {
-  neighbours,       ///< neighbour << class_bits | class
+  neighbors,        ///< neighbor << class_bits | class
   beside_lattices,  ///< the same, of the particles outside lattices alone, which count as if there were no
                     ///< others
   beside_cells,     ///< the same, without bodies of cells that kernels take by blocks (cell_blocks.h)
@@ -57,12 +57,12 @@ std::uint32_t class_bits(const Model& model);
 /// Error (scene_rejected): a word a spring end is more than 32 bits can count.
 Status check_spring_words(const Model& model);
 
-/// Errors (scene_rejected): more words than 32 bits can count; words that name neighbours, and more particles
+/// Errors (scene_rejected): more words than 32 bits can count; words that name neighbors, and more particles
 /// than the bits left by the class can. `cells` as above.
 Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words,
                                          const std::vector<bool>& cells = {});
 
-/// Each spring in two words: end a; end b << class_bits | class. Errors as incident_springs of neighbours.
+/// Each spring in two words: end a; end b << class_bits | class. Errors as incident_springs of neighbors.
 Result<std::vector<std::array<std::uint32_t, 2>>> packed_springs(const Model& model);
 
 /// The most springs at one particle.

@@ -75,7 +75,7 @@ struct MethodTraits {
 struct IntegratorRow {
   Integrator integrator;
   std::string_view name;   ///< in scene files
-  std::string_view title;  ///< in pictures
+  std::string_view title;  ///< in images
   int order;               ///< of convergence
   StepMatrix (*step_matrix)(long double h, long double kappa, long double gamma);
   MethodData method;

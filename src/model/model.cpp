@@ -23,7 +23,7 @@ Vec3 without_negative_zero(const Vec3& v) {
 }
 
 /// x in single precision. A function that is called: g++ 12 drops the way to float and back where it
-/// vectorises it.
+/// vectorizes it.
 [[gnu::noinline]] double in_single(double x) {
   return static_cast<double>(static_cast<float>(x));
 }

@@ -74,7 +74,7 @@ struct BodySkin {
 };
 
 /// A run of consecutive particles that was made as one body. Solvers need only the particles and springs;
-/// the rest is for analysis, pictures and files.
+/// the rest is for analysis, images and files.
 struct Body {
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
@@ -112,7 +112,7 @@ struct Ball {
 };
 
 /// The model. Its springs are walked by springs_of (model/springs.h) in the order of (a, b), so that adding
-/// their forces in this order adds to every particle in ascending neighbour index.
+/// their forces in this order adds to every particle in ascending neighbor index.
 struct Model {
   SimulationSettings simulation;
   ContactSettings contact;

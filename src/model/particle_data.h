@@ -113,12 +113,12 @@ class Runs {
   std::vector<Run> runs_;
 };
 
-/// Places of the points of a lattice: (i, j, k) is at centre + turned((i, j, k)·spacing − half).
+/// Places of the points of a lattice: (i, j, k) is at center + turned((i, j, k)·spacing − half).
 struct LatticePlaces {
   std::array<int, 3> particles = {};  ///< n₀, n₁, n₂; (i, j, k) has the number (i·n₁ + j)·n₂ + k
   double spacing = 0.0;               ///< [m]
   Vec3 half;                          ///< half its edges [m]
-  Vec3 centre;                        ///< [m]
+  Vec3 center;                        ///< [m]
   Rotation turned = Rotation({0.0, 0.0, 1.0}, 0.0);
 
   std::size_t count() const {
@@ -129,7 +129,7 @@ struct LatticePlaces {
     const auto at = static_cast<int>(local);
     const auto& [ni, nj, nk] = particles;
     const int i = at / (nj * nk), j = at / nk % nj, k = at % nk;
-    return centre + turned({i * spacing - half.x, j * spacing - half.y, k * spacing - half.z});
+    return center + turned({i * spacing - half.x, j * spacing - half.y, k * spacing - half.z});
   }
 };
 

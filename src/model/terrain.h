@@ -15,7 +15,7 @@ struct ShapeFormulas {
   TerrainGap<T> (*gap)(const Geometry<T>&, const Vec<T>&);
 };
 
-/// One shape. Solvers, pictures, parser, --set, defaults, checks, documentation, the window's buttons and
+/// One shape. Solvers, images, parser, --set, defaults, checks, documentation, the window's buttons and
 /// verify iterate the table.
 struct TerrainShapeRow {
   TerrainShape value;
@@ -23,7 +23,7 @@ struct TerrainShapeRow {
   std::string_view title;   ///< for people
   std::string_view kernel;  ///< of shaders/shapes/KERNEL.glsl
   std::span<const GeometryKey> keys;
-  /// The centre of a cube of edge 4 m, some tenths of a metre off the surface of the default shape, above
+  /// The center of a cube of edge 4 m, some tenths of a meter off the surface of the default shape, above
   /// a place on which it can fall: for checks and measurements.
   Vec3 drop;
   ShapeFormulas<float> in_single;
@@ -102,7 +102,7 @@ Pose pose_at(const TerrainMotion& motion, double timestep, std::uint64_t step);
 Terrain terrain_at(const Terrain& terrain, double timestep, std::uint64_t step);
 
 /// Signed distance d(x) [m] of a point from the terrain, positive on the free side, and the normal there, in
-/// double precision: for reports and pictures. Solvers evaluate the formulas in their own precision.
+/// double precision: for reports and images. Solvers evaluate the formulas in their own precision.
 double signed_distance(const Terrain& terrain, const Vec3& x);
 TerrainGap<double> terrain_gap(const Terrain& terrain, const Vec3& x);
 

@@ -9,10 +9,10 @@
 
 namespace aspic {
 
-/// Three vertices by index, anticlockwise seen from outside where the mesh is oriented.
+/// Three vertices by index, counterclockwise seen from outside where the mesh is oriented.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A surface of triangles. Lengths are in the units of its file until voxelise() scales them.
+/// A surface of triangles. Lengths are in the units of its file until voxelize() scales them.
 struct TriangleMesh {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;  ///< each index is below the number of vertices

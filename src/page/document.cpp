@@ -44,7 +44,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// The page's shaders by name, the light of pictures (shaders/render) among them.
+/// The page's shaders by name, the light of images (shaders/render) among them.
 Json shaders() {
   Json texts = Json::object();
   for (const EmbeddedFile& file : page_files())

@@ -12,7 +12,7 @@
 #include "model/terrain.h"
 #include "page/terrain_shape.h"
 #include "render/body_painter.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "render/overlay_text.h"
 #include "render/quantity.h"
 #include "scene/follow.h"
@@ -51,7 +51,7 @@ Json body_facts(const Model& model, std::size_t index) {
                 {"lattice", body.box() ? Json(body.box()->particles) : Json()},
                 {"style", styles[static_cast<std::size_t>(body.style)]},
                 {"reach", light_reach(body)},
-                {"colour", body_colour(index)},
+                {"color", body_color(index)},
                 {"groups", groups},
                 {"rods", rods}};
   if (!body.skin.empty())
@@ -101,11 +101,11 @@ Json terrain_facts(const Terrain& terrain) {
 
 Json ranges_of(const Model& model, const ViewSettings& view) {
   Json ranges = Json::object();
-  for (const auto& [colour, name] : view_colours) {
-    if (!has_scale(colour) || (colour == ViewColour::actuation && model.actuation.empty())) continue;
-    // The scene's own ends are of the colour that it chose.
-    QuantityRange range = default_range(model, colour);
-    if (colour == view.colour && view.scale.range == ScaleRange::fixed) range = range_for(model, view, range);
+  for (const auto& [color, name] : view_colors) {
+    if (!has_scale(color) || (color == ViewColor::actuation && model.actuation.empty())) continue;
+    // The scene's own ends are of the color that it chose.
+    QuantityRange range = default_range(model, color);
+    if (color == view.color && view.scale.range == ScaleRange::fixed) range = range_for(model, view, range);
     ranges[name] = range;
   }
   return ranges;
@@ -113,7 +113,7 @@ Json ranges_of(const Model& model, const ViewSettings& view) {
 
 Json map_text(ScaleMap map) {
   std::string rgb;
-  const auto texels = colour_map_texels(map);
+  const auto texels = color_map_texels(map);
   for (std::size_t i = 0; i < texels.size(); ++i)
     if (i % 4 != 3) rgb += static_cast<char>(texels[i]);
   return base64(rgb);
@@ -143,7 +143,7 @@ Json run_facts(const Scene& scene, const Model& model, const std::string& name, 
     balls.push_back(
         {{"radius", model.balls[i].radius},
          {"launch", model.balls[i].launch_step},
-         {"colour", footballs ? Colour{0.86f, 0.86f, 0.84f} : body_colour(model.bodies.size() + i)}});
+         {"color", footballs ? Color{0.86f, 0.86f, 0.84f} : body_color(model.bodies.size() + i)}});
   for (const Terrain& t : model.terrain) terrain.push_back(terrain_facts(t));
   Json directions = Json::array();
   for (const LatticeDirection& d : lattice_directions())
@@ -189,7 +189,7 @@ Json view_facts(const Scene& scene) {
                 {"target", triple(camera.target)},
                 {"fov", camera.fov},
                 {"orthographic", camera.projection == Projection::orthographic},
-                {"colour", name_of(view.colour)},
+                {"color", name_of(view.color)},
                 {"terrain", view.terrain},
                 {"axes", view.axes},
                 {"draw",
@@ -204,9 +204,9 @@ Json view_facts(const Scene& scene) {
   facts["signedScale"] = map_text(own ? view.scale.map : ScaleMap::blue_red);
   Json types = Json::object();  // a null value that becomes one aborts without memory
   for (const SpringType type : {SpringType::structural, SpringType::shear, SpringType::bending})
-    types[name_of(type)] = spring_colour(type);
-  facts["springColours"] = types;
-  facts["neutral"] = neutral_body_colour();
+    types[name_of(type)] = spring_color(type);
+  facts["springColors"] = types;
+  facts["neutral"] = neutral_body_color();
   return facts;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a page says of a run besides its pictures, as JSON, and the shapes that its terrain is drawn with.
+// What a page says of a run besides its images, as JSON, and the shapes that its terrain is drawn with.
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -23,11 +23,11 @@ struct Quanta {
 };
 Quanta quanta_of(const Model& model);
 
-/// Parameters, bodies, springs, balls, terrain and the ranges of colours. `name`: what distinguishes the run
+/// Parameters, bodies, springs, balls, terrain and the ranges of colors. `name`: what distinguishes the run
 /// from others next to it; empty where it is alone. `number`: of the run, from 0.
 Json run_facts(const Scene& scene, const Model& model, const std::string& name, std::size_t number);
 
-/// The view's camera and what it shows, and the colours of its scales.
+/// The view's camera and what it shows, and the colors of its scales.
 Json view_facts(const Scene& scene);
 
 /// r/r₀ − 1 of the actuated classes at a step, three to a vector. `channels`: Inputs::channels that hold.

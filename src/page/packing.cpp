@@ -61,7 +61,7 @@ void Track::append(std::span<const Vec3> vectors, std::string& bytes) {
       before_[at] = std::exchange(last_[at], now);
     }
   }
-  // The first picture has no speed before it: its places count as those of the picture before, too.
+  // The first image has no speed before it: its places count as those of the image before, too.
   if (std::exchange(first_, false)) before_ = last_;
   append_differences(residual_, bytes);
 }

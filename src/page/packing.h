@@ -19,8 +19,8 @@ void append_planes(std::span<const std::int32_t> numbers, std::string& bytes);
 /// Appends numbers that lie near those before them: each as its difference from it, modulo 2³².
 void append_differences(std::span<const std::int32_t> numbers, std::string& bytes);
 
-/// Vectors that change from picture to picture, as whole multiples of a quantum. A picture holds how far each
-/// is from where the two pictures before would take it at unchanged speed, less what this is of the vector
+/// Vectors that change from image to image, as whole multiples of a quantum. An image holds how far each
+/// is from where the two images before would take it at unchanged speed, less what this is of the vector
 /// before it in the list: all x, then all y, then all z. All differences are modulo 2³², so that nothing is
 /// lost beyond rounding to the quantum.
 class Track {
@@ -28,7 +28,7 @@ class Track {
   /// `quantum` > 0, in the unit of the vectors.
   Track(std::size_t count, double quantum);
 
-  /// Appends a picture. As many vectors as `count`; a component beyond ±2²⁹ quanta is that.
+  /// Appends an image. As many vectors as `count`; a component beyond ±2²⁹ quanta is that.
   void append(std::span<const Vec3> vectors, std::string& bytes);
 
   double quantum() const { return quantum_; }
@@ -37,7 +37,7 @@ class Track {
 
  private:
   double quantum_;
-  std::vector<std::int32_t> last_, before_, residual_;  // all x, all y, all z; of the two pictures before
+  std::vector<std::int32_t> last_, before_, residual_;  // all x, all y, all z; of the two images before
   bool first_ = true;
 };
 

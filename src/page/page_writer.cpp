@@ -34,17 +34,17 @@ Json rounded_list(const std::vector<double>& values) {
 
 }  // namespace
 
-Status check_page(std::uint64_t pictures, std::uint64_t positions_each, double fps, bool live) {
+Status check_page(std::uint64_t images, std::uint64_t positions_each, double fps, bool live) {
   if (live) positions_each *= 2;
-  if (positions_each == 0 || pictures <= most_positions / positions_each) return {};
-  const double share = static_cast<double>(most_positions) / static_cast<double>(positions_each) /
-                       static_cast<double>(pictures);
+  if (positions_each == 0 || images <= most_positions / positions_each) return {};
+  const double share =
+      static_cast<double>(most_positions) / static_cast<double>(positions_each) / static_cast<double>(images);
   const double fitting = fps * share >= 1.0 ? std::floor(fps * share) : rounded(0.9 * fps * share);
   return advised(fail(ErrorCode::usage,
                       "a page of {} frames of {} particles and balls would hold {:.0f} million positions{}, "
                       "and a browser holds {} million.",
-                      pictures, live ? positions_each / 2 : positions_each,
-                      static_cast<double>(pictures) * static_cast<double>(positions_each) * 1e-6,
+                      images, live ? positions_each / 2 : positions_each,
+                      static_cast<double>(images) * static_cast<double>(positions_each) * 1e-6,
                       live ? " and velocities" : "", most_positions / 1000000),
                  {{RemedyKind::lower_fps, {fmt::format("{:g}", fitting)}},
                   {RemedyKind::shorten},
@@ -202,7 +202,7 @@ Status PageWriter::finish(std::span<const State* const> states,
 
 namespace {
 
-/// The pictures of one run, at the steps that a film of it would show.
+/// The images of one run, at the steps that a video of it would show.
 class PageSink final : public StateSink {
  public:
   PageSink(PageWriter writer, const Scene& scene, PageSettings settings, const FrameSchedule& schedule)

@@ -1,5 +1,5 @@
 #pragma once
-// A run as one HTML file: what it was, every picture's particles, and the program that shows them in a
+// A run as one HTML file: what it was, every image's particles, and the program that shows them in a
 // browser.
 #include <cstdint>
 #include <memory>
@@ -20,10 +20,10 @@ namespace aspic::page {
 
 /// What a page is made with.
 struct PageSettings {
-  double fps = 60.0;         ///< pictures per second shown at the speed below, > 0
+  double fps = 60.0;         ///< images per second shown at the speed below, > 0
   double speed = 1.0;        ///< simulated seconds per second shown when it opens, > 0
   std::string command = {};  ///< that writes it again; empty: none does
-  /// It holds no pictures but the keys of its one scene, and computes them in the browser (live_facts.h). The
+  /// It holds no images but the keys of its one scene, and computes them in the browser (live_facts.h). The
   /// first state that is added is where it starts; of the others it holds the hashes, to compare with.
   bool live = false;
   std::optional<std::uint64_t> last_step = {};  ///< of a live run, as planned; absent: its last state's
@@ -41,9 +41,9 @@ inline constexpr std::uint64_t most_positions = 50000000;
 /// Characters of a page at most.
 inline constexpr std::uint64_t most_characters = 256u << 20;
 
-/// Whether so many pictures of so many particles and balls fit into a page; one that is live keeps velocities
+/// Whether so many images of so many particles and balls fit into a page; one that is live keeps velocities
 /// too. Error (usage) with both figures and the `fps` that would.
-Status check_page(std::uint64_t pictures, std::uint64_t positions_each, double fps, bool live = false);
+Status check_page(std::uint64_t images, std::uint64_t positions_each, double fps, bool live = false);
 
 /// Whether a file's name can be a page's: it ends in .html or .htm, or in nothing. Error (usage).
 Status check_page_name(const std::string& path);
@@ -54,11 +54,11 @@ class PageWriter {
   static Result<PageWriter> create(const std::string& path, Overwrite overwrite);
   const std::string& path() const { return file_.path(); }
 
-  /// Writes everything that is known before the first picture; at least one run, of a live page one. Error
+  /// Writes everything that is known before the first image; at least one run, of a live page one. Error
   /// (io); live_module().
   Status begin(const PageSettings& settings, std::span<const PageRun> runs);
   bool begun() const { return !models_.empty(); }
-  /// Adds a picture: a state of each run, whose models must still live. One in which no run went on since the
+  /// Adds an image: a state of each run, whose models must still live. One in which no run went on since the
   /// last one is left out. `inputs`: those that hold, by run; of runs beyond them none. Errors: io, also
   /// where the page becomes longer than most_characters or holds more than most_positions; diverged if a
   /// number is not finite.
@@ -72,7 +72,7 @@ class PageWriter {
  private:
   struct Tracks {
     Track particles, balls, spins, changes;
-    std::vector<double> kinetic, elastic, gravitational, work;  // [J], by picture; of actuators where it has
+    std::vector<double> kinetic, elastic, gravitational, work;  // [J], by image; of actuators where it has
     std::vector<std::uint64_t> steps;
     std::vector<std::string> hashes = {};  // of a live page
     ActuatorWork actuators;

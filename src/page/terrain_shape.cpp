@@ -33,7 +33,7 @@ Points points_of(const Terrain& terrain) {
   return points;
 }
 
-/// 1 if the turn from u to v is anticlockwise as seen from the side that is drawn as the outside, else −1.
+/// 1 if the turn from u to v is counterclockwise as seen from the side that is drawn as the outside, else −1.
 int turn_of(const Terrain& terrain, const Points& points) {
   double sum = 0.0;
   for (std::size_t ring = 0; ring < rings; ++ring) {

@@ -140,11 +140,11 @@ void Comparison::show() {
   std::vector<ShownState>& shown = runs_.shown;
   bool changed = shown.size() != count();
   for (std::size_t i = 0; i < count(); ++i) {
-    now.push_back({run(i).present().picture_number(), run(i).time(), run(i).divergence()});
-    changed = changed || now[i].picture != shown[i].picture ||
+    now.push_back({run(i).present().image_number(), run(i).time(), run(i).divergence()});
+    changed = changed || now[i].image != shown[i].image ||
               now[i].divergence.has_value() != shown[i].divergence.has_value();
   }
-  const std::uint64_t of_ghost = ghost_ ? ghost_->simulation().present().picture_number() : 0;
+  const std::uint64_t of_ghost = ghost_ ? ghost_->simulation().present().image_number() : 0;
   if (!changed && of_ghost == ghost_shown_) return;
   Status read;
   for (std::size_t i = 0; read && i < count(); ++i) read = run(i).refresh_snapshot();

@@ -89,7 +89,7 @@ class Comparison {
   ComparedRuns runs_;
   ComparisonClock clock_;
   std::unique_ptr<GhostRun> ghost_;
-  std::uint64_t ghost_shown_ = 0;  // picture number of the ghost that is shown
+  std::uint64_t ghost_shown_ = 0;  // image number of the ghost that is shown
   std::uint64_t shown_number_ = 0;
   std::vector<Error> messages_;
 };

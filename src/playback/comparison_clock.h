@@ -14,8 +14,8 @@ namespace aspic {
 
 /// What is shown of a run.
 struct ShownState {
-  std::uint64_t picture = 0;  ///< Present::picture_number()
-  double time = 0.0;          ///< [s]
+  std::uint64_t image = 0;  ///< Present::image_number()
+  double time = 0.0;        ///< [s]
   std::optional<Divergence> divergence;
 };
 
@@ -45,9 +45,9 @@ class ComparisonClock {
   bool toggle();
   bool others_run() const { return others_run_; }
   bool runs() const { return runs_.leader.running() || others_run_; }
-  /// The time that the pictures show [s].
+  /// The time that the images show [s].
   double time() const;
-  /// All pictures show the very step that the setter is at.
+  /// All images show the very step that the setter is at.
   bool is_shown() const;
   /// Pacer::limit() of the setter, and of no other.
   void limit(Hold source, std::optional<std::uint64_t> step);
@@ -56,14 +56,14 @@ class ComparisonClock {
   /// To the moment nearest to a time [s]; false if the leader has it: that goes then, and the others follow.
   /// Errors: those of Playback::seek().
   Result<bool> go_to(double time);
-  /// Simulated seconds per second of the pictures; 0 before there is a measurement.
+  /// Simulated seconds per second of the images; 0 before there is a measurement.
   double real_time_factor() const;
-  /// The newest time, up to that of the pictures, at which all runs but those that diverged have energies
+  /// The newest time, up to that of the images, at which all runs but those that diverged have energies
   /// [s].
   double figures_time() const;
 
   // ---- for Comparison ----
-  /// Once for each picture, `dt` after the last [s], before the others follow. The variant that goes ahead in
+  /// Once for each image, `dt` after the last [s], before the others follow. The variant that goes ahead in
   /// the leader's place; null: none does.
   VariantRun* begin_frame(double dt);
   /// A time after the leader diverged that is shown [s].

@@ -7,7 +7,7 @@ namespace aspic {
 /// What a change asks of the simulation.
 enum class Effect {
   none,       ///< nothing changed
-  view,       ///< the picture alone
+  view,       ///< the image alone
   constants,  ///< other constants; the state continues
   restart,    ///< another body or another start: the simulation restarts
   opening     ///< another source, or the same one again: as if it had been opened

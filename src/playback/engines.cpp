@@ -53,7 +53,7 @@ EnergySample Engines::measured(const State& state) const {
   return sample;
 }
 
-Result<JobResult> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled) {
+Result<JobResult> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& canceled) {
   JobResult outcome;
   const auto end = Clock::now() + std::chrono::duration<double>(limits.seconds);
   const bool shadow_first = shadow_paces();
@@ -66,7 +66,7 @@ Result<JobResult> Engines::advance_outside(const JobLimits& limits, const std::a
     ASPIC_TRY(other_start, shadow_.solver->state());
   }
   std::uint64_t sample = next_sample_step(limits.from, model_->simulation.timestep);
-  first.set_stop_flag(&cancelled);
+  first.set_stop_flag(&canceled);
   for (std::uint64_t at = limits.from; at < limits.to && Clock::now() < end;) {
     ASPIC_TRY(const Advance advanced, first.advance(1));
     paced.divergence = advanced.divergence;
@@ -79,10 +79,10 @@ Result<JobResult> Engines::advance_outside(const JobLimits& limits, const std::a
   ASPIC_TRY(paced.state, first.state());
   outcome.steps = paced.state.step - limits.from;
   if (both) {
-    shadow_.solver->set_stop_flag(&cancelled);
+    shadow_.solver->set_stop_flag(&canceled);
     ASPIC_CHECK(advance(shadow_, tried_steps(outcome, paced), outcome.shadow));
-    // Where cancelling stops the shadow it takes back the steps of both: they stay together.
-    if (cancelled && !outcome.shadow.divergence &&
+    // Where canceling stops the shadow it takes back the steps of both: they stay together.
+    if (canceled && !outcome.shadow.divergence &&
         outcome.shadow.state.step - limits.from < tried_steps(outcome, paced)) {
       ASPIC_CHECK(first.load(start));
       ASPIC_CHECK(shadow_.solver->load(other_start));

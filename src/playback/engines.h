@@ -89,9 +89,9 @@ class Engines {
   /// Both go over to another model of the same topology. Errors: those of Solver::set_constants().
   Status set_constants(SharedModel model);
 
-  /// For a worker: advances the solvers that do without the context, until `cancelled` at most, which drops
+  /// For a worker: advances the solvers that do without the context, until `canceled` at most, which drops
   /// the step in progress. The first of them sets the pace.
-  Result<JobResult> advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled);
+  Result<JobResult> advance_outside(const JobLimits& limits, const std::atomic<bool>& canceled);
   /// With the context: the solver of shadow mode that did not takes the steps of an outcome too, if it needs
   /// the context.
   Status follow(JobResult& outcome);

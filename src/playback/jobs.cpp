@@ -10,12 +10,12 @@ namespace aspic {
 void Jobs::start(Job job) {
   if (!busy()) progress_ = std::chrono::steady_clock::now();
   worker_.start(
-      [this, job = std::move(job)](const std::atomic<bool>& cancelled) { results_.put(job(cancelled)); });
+      [this, job = std::move(job)](const std::atomic<bool>& canceled) { results_.put(job(canceled)); });
 }
 
-void Jobs::start_uncancelled(Job job) {
+void Jobs::start_uncanceled(Job job) {
   assert(idle());
-  uncancelled_ = true;
+  uncanceled_ = true;
   start(std::move(job));
 }
 
@@ -23,14 +23,14 @@ Status Jobs::collect() {
   if (!busy()) worker_.wait();  // for an exception
   while (const auto take_up = results_.take()) {
     progress_ = std::chrono::steady_clock::now();
-    uncancelled_ = false;
+    uncanceled_ = false;
     ASPIC_CHECK((*take_up)());
   }
   return {};
 }
 
 void Jobs::cancel() {
-  if (!uncancelled_) worker_.cancel();
+  if (!uncanceled_) worker_.cancel();
 }
 
 bool Jobs::long_under_way() const {

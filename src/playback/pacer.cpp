@@ -22,12 +22,12 @@ std::string slowness(double factor, int particles_per_edge) {
 
 void Pacer::set_speed(double speed) {
   const double before = std::exchange(speed_, std::clamp(speed, slowest_speed, fastest_speed));
-  film_is_behind_ = film_is_behind_ || speed_ != before;
+  video_is_behind_ = video_is_behind_ || speed_ != before;
 }
 
 void Pacer::drop_due() {
   due_ = 0.0;
-  film_is_behind_ = true;
+  video_is_behind_ = true;
 }
 
 void Pacer::restart() {
@@ -54,7 +54,7 @@ std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, st
   const double asked =
       pace_ == Pace::real_time ? speed_ * dt / settings.timestep : speed_ * settings.steps_per_frame;
   due_ += asked;
-  // What was not done within two pictures or a tenth of a second is dropped: the motion slows down, and does
+  // What was not done within two images or a tenth of a second is dropped: the motion slows down, and does
   // not jump.
   const double tenth = pace_ == Pace::real_time ? speed_ * 0.1 / settings.timestep : 0.0;
   const double most = std::max({2.0 * asked, tenth, 1.0});
@@ -68,9 +68,9 @@ std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, st
     rate_steps_ = 0;
   }
   const auto steps = static_cast<std::uint64_t>(due_);
-  // A film sees each state that the run is put to, and each speed, before the run goes on.
-  const bool filmed = limits_[static_cast<std::size_t>(Hold::film)].has_value();
-  if (std::exchange(film_is_behind_, false) && filmed) return 0;
+  // A video sees each state that the run is put to, and each speed, before the run goes on.
+  const bool recorded = limits_[static_cast<std::size_t>(Hold::video)].has_value();
+  if (std::exchange(video_is_behind_, false) && recorded) return 0;
   return end ? std::min(steps, left) : steps;
 }
 

@@ -14,7 +14,7 @@
 namespace aspic {
 
 enum class Pace {
-  steps_per_frame,  ///< the scene's steps for each picture, whatever time that takes
+  steps_per_frame,  ///< the scene's steps for each image, whatever time that takes
   real_time         ///< as much simulated time as passes outside
 };
 inline constexpr double slowest_speed = 1.0 / 1024.0, fastest_speed = 1024.0;
@@ -25,8 +25,8 @@ std::string slowness(double factor, int particles_per_edge);
 
 /// Who may have a run wait.
 enum class Hold {
-  film,        ///< wants its picture first
-  encoder,     ///< has no room for another picture
+  video,       ///< wants its image first
+  encoder,     ///< has no room for another image
   comparison,  ///< others are to catch up; or it is the run's own goal, see Pacer::catch_up()
 };
 inline constexpr std::size_t hold_count = 3;
@@ -53,7 +53,7 @@ class Pacer {
   void restart();
   /// The run was put to another state: no step is owed.
   void drop_due();
-  /// Once for each picture, `dt` after the last [s]: the steps to do next, of a run that is at `step`.
+  /// Once for each image, `dt` after the last [s]: the steps to do next, of a run that is at `step`.
   std::uint64_t steps_due(double dt, const SimulationSettings& settings, std::uint64_t step);
   void did(std::uint64_t steps);
   /// Fewer steps were done than the pace asks for.
@@ -73,7 +73,7 @@ class Pacer {
   double speed_ = 1.0;
   std::array<std::optional<std::uint64_t>, hold_count> limits_;
   bool catches_up_ = false;
-  bool film_is_behind_ = false;  // its limit is of another state, or of another speed
+  bool video_is_behind_ = false;  // its limit is of another state, or of another speed
   bool behind_ = false;
   double since_behind_ = std::numeric_limits<double>::infinity();  // [s]
   double due_ = 0.0;                                               // steps asked for and not done

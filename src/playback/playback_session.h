@@ -63,7 +63,7 @@ class PlaybackSession {
   /// What holds in the step that begins here.
   Inputs inputs() const { return stepper_.inputs(); }
   const std::optional<Pull>& hand() const { return stepper_.acts().hand; }
-  /// Once for each picture: takes what the solver finished and sets it to work again for at most about
+  /// Once for each image: takes what the solver finished and sets it to work again for at most about
   /// `budget` seconds. `dt` is the time since the last call [s]. A backend that fails in the context is
   /// replaced by contextless_backend(), see take_message().
   Status update(double dt, double budget);

@@ -37,7 +37,7 @@ Status Present::load(const State& state) {
   take_snapshot(State(state));
   step_ = state.step;
   divergence_.reset();
-  ++picture_number_;
+  ++image_number_;
   return {};
 }
 
@@ -48,7 +48,7 @@ void Present::take_snapshot(State state) {
 
 void Present::advance(std::uint64_t steps) {
   step_ += steps;
-  if (steps > 0) ++picture_number_;
+  if (steps > 0) ++image_number_;
 }
 
 }  // namespace aspic

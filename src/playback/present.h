@@ -33,7 +33,7 @@ class Present {
   double time() const { return static_cast<double>(step_) * model().simulation.timestep; }
   const std::optional<Divergence>& divergence() const { return divergence_; }
   /// The last state that reached this side: of a backend in the context as of the last
-  /// Simulation::refresh_snapshot(), ten times a second while running; of any other that of the picture.
+  /// Simulation::refresh_snapshot(), ten times a second while running; of any other that of the image.
   const State& snapshot() const { return snapshot_; }
   /// How long it has been here [s].
   double snapshot_age() const;
@@ -43,7 +43,7 @@ class Present {
   /// Changes whenever the run restarts.
   std::uint64_t run_number() const { return run_number_; }
   /// Changes whenever what there is to draw did.
-  std::uint64_t picture_number() const { return picture_number_; }
+  std::uint64_t image_number() const { return image_number_; }
 
   /// Another setup with its solvers; on an error nothing changes.
   Status install(Setup setup, Result<Engines> engines);
@@ -51,7 +51,7 @@ class Present {
   /// Solver::set_constants().
   Status set_constants(Setup setup, SharedModel model);
   /// The state has another meaning, and is to be drawn again.
-  void redraw() { ++picture_number_; }
+  void redraw() { ++image_number_; }
   /// All solvers are at this state, which has not diverged.
   Status load(const State& state);
   void take_snapshot(State state);
@@ -70,7 +70,7 @@ class Present {
   Engines engines_;
   State snapshot_;
   std::chrono::steady_clock::time_point snapshot_time_ = {};
-  std::uint64_t step_ = 0, model_number_ = 0, run_number_ = 0, picture_number_ = 0;
+  std::uint64_t step_ = 0, model_number_ = 0, run_number_ = 0, image_number_ = 0;
   std::optional<Divergence> divergence_;
   std::optional<Error> message_;
 };

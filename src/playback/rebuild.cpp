@@ -50,7 +50,7 @@ void Rebuild::begin() {
   const auto change = std::make_shared<Change>(begin_change(std::move(setup), keep_state));
   const bool with_engines = !present_.engines().use_context();
   building_ = true;
-  jobs_.start_uncancelled([this, change, with_engines](const std::atomic<bool>&) -> Jobs::TakeUp {
+  jobs_.start_uncanceled([this, change, with_engines](const std::atomic<bool>&) -> Jobs::TakeUp {
     const auto built = std::make_shared<Result<Built>>(build(*change, with_engines));
     return [this, change, built] {
       building_ = false;

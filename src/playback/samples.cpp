@@ -115,12 +115,12 @@ void Samples::compare(double time, const State& leader, const State& shadow, boo
   sample.time = time;
   const auto difference = compare_states(leader, shadow);
   if (difference && leader.step == shadow.step && !one_diverged) {
-    sample.metres = std::max(difference->position.absolute, difference->ball_position.absolute);
+    sample.meters = std::max(difference->position.absolute, difference->ball_position.absolute);
     sample.ulp = std::max({difference->position.ulp, difference->velocity.ulp, difference->ball_position.ulp,
                            difference->ball_velocity.ulp, difference->ball_angular_velocity.ulp});
     sample.identical = difference->identical();
   } else {
-    sample.metres = std::numeric_limits<double>::infinity();
+    sample.meters = std::numeric_limits<double>::infinity();
   }
   ever_differed_ = ever_differed_ || !sample.identical;
   while (!differences_.empty() && differences_.back().time >= time) differences_.pop_back();

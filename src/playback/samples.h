@@ -21,7 +21,7 @@ struct EnergySample {
 /// How far the two backends of shadow mode were apart at one time.
 struct DifferenceSample {
   double time = 0.0;       ///< [s]
-  double metres = 0.0;     ///< largest |difference| of a position's component; infinite if one alone diverged
+  double meters = 0.0;     ///< largest |difference| of a position's component; infinite if one alone diverged
   std::uint64_t ulp = 0;   ///< largest distance of any component of the state
   bool identical = false;  ///< every bit is the same
 };

@@ -18,10 +18,10 @@ constexpr double span_of_step = 16.0;       ///< likewise around the stable step
 constexpr std::uint32_t most_particles = 20000;
 constexpr std::uint64_t probe_steps = 240, long_probe_steps = 30;
 
-std::vector<double> around(double centre, double span, std::size_t count) {
+std::vector<double> around(double center, double span, std::size_t count) {
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i)
-    values.push_back(centre *
+    values.push_back(center *
                      std::pow(span, 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0));
   return values;
 }
@@ -43,11 +43,11 @@ std::string key_of(Scene scene) {
   return to_toml(scene);
 }
 
-/// Index of the centre nearest to a value on a logarithmic scale, within half a cell.
-std::optional<std::size_t> nearest(const std::vector<double>& centres, double value) {
-  const double cell = std::log(centres[1] / centres[0]);
-  const double at = std::round(std::log(value / centres[0]) / cell);
-  if (!(at >= 0.0 && at < static_cast<double>(centres.size()))) return std::nullopt;
+/// Index of the center nearest to a value on a logarithmic scale, within half a cell.
+std::optional<std::size_t> nearest(const std::vector<double>& centers, double value) {
+  const double cell = std::log(centers[1] / centers[0]);
+  const double at = std::round(std::log(value / centers[0]) / cell);
+  if (!(at >= 0.0 && at < static_cast<double>(centers.size()))) return std::nullopt;
   return static_cast<std::size_t>(at);
 }
 
@@ -80,14 +80,14 @@ void StabilityMap::update(const Scene& scene) {
 
 void StabilityMap::begin(const Scene& scene) {
   worker_.start([this, settings = scene.model, stiffness = stiffness_,
-                 generation = generation_](const std::atomic<bool>& cancelled) {
+                 generation = generation_](const std::atomic<bool>& canceled) {
     const auto built = build_model(settings);
     if (!built) return;
     const Model model = alone_in_space(*built);
     const Integrator integrator = settings.simulation.integrator;
     const auto limit_at = [&](double factor) {
       return stability_limit(with_constants(model, factor, 1.0, 1.0), integrator, StabilityEffort::quick,
-                             [&](double) { return !cancelled; });
+                             [&](double) { return !canceled; });
     };
     const std::optional<double> here = limit_at(1.0).step;
     const double step = settings.simulation.timestep;
@@ -98,10 +98,10 @@ void StabilityMap::begin(const Scene& scene) {
                           std::vector<double>(rows), std::vector<Stability>(rows * columns)};
     const std::vector<double> factors = around(1.0, span_of_stiffness, rows);
     news_.put({generation, map});
-    for (std::size_t row = 0; row < rows && !cancelled; ++row)
+    for (std::size_t row = 0; row < rows && !canceled; ++row)
       map.limit[row] = limit_at(factors[row]).step.value_or(0.0);
     news_.put({generation, map});
-    if (model.particle_count() >= most_particles || cancelled) return;
+    if (model.particle_count() >= most_particles || canceled) return;
 
     const ProbeStart start = probe_start(model);
     BackendChoice choice;
@@ -112,10 +112,10 @@ void StabilityMap::begin(const Scene& scene) {
       for (std::size_t column = 0; column < columns; ++column) {
         const auto backend =
             make_backend(choice, with_constants(model, factors[row], 1.0, map.steps[column]));
-        if (!backend || cancelled) return;
-        backend->solver->set_stop_flag(&cancelled);
+        if (!backend || canceled) return;
+        backend->solver->set_stop_flag(&canceled);
         const auto grew = grows(*backend->solver, start, count);
-        if (!grew || cancelled) return;
+        if (!grew || canceled) return;
         map.cells[row * columns + column] = *grew ? Stability::unstable : Stability::stable;
       }
       news_.put({generation, map});

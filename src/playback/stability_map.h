@@ -15,7 +15,7 @@ enum class Stability : char { unknown, stable, unstable };
 
 /// A map of time steps by stiffnesses.
 struct StabilityCells {
-  std::vector<double> steps, stiffness;  ///< centres of cells [s], [N/m], ascending in constant ratios
+  std::vector<double> steps, stiffness;  ///< centers of cells [s], [N/m], ascending in constant ratios
   std::vector<double> limit;             ///< largest stable step in theory for each stiffness [s]; 0: none
   std::vector<Stability> cells;          ///< row by row from the lowest stiffness
 
@@ -26,7 +26,7 @@ struct StabilityCells {
 /// All calls from one thread.
 class StabilityMap {
  public:
-  /// Once for each picture that shows it: measures again where the scene is another but for its time step and
+  /// Once for each image that shows it: measures again where the scene is another but for its time step and
   /// stiffness, or where these have left the map. Fewer than 20,000 particles are run; of more there is
   /// theory alone.
   void update(const Scene& scene);

@@ -17,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double copy_every = 0.1;  // s
-/// What a job takes [s]: nobody waits for it, so it may be longer than a picture.
+/// What a job takes [s]: nobody waits for it, so it may be longer than an image.
 constexpr double shortest_job = 0.030, longest_job = 0.1;
 
 /// Of those that the model reads.
@@ -133,7 +133,7 @@ Status Stepper::advance(double dt, double budget) {
   const std::uint64_t steps = pacer_.steps_due(dt, present_.model().simulation, present_.step());
   if (steps == 0) return {};
   const std::uint64_t to = present_.step() + steps;
-  // Where no solver needs the context a second job is queued, so that the solvers never idle while a picture
+  // Where no solver needs the context a second job is queued, so that the solvers never idle while an image
   // is drawn.
   const bool queues = !engines.use_context() && jobs_.count() < 2 && to > job_to_;
   if (!engines.only_context() && !jobs_.idle() && !queues) return {};
@@ -215,19 +215,19 @@ void Stepper::start_job(std::uint64_t to, double budget, const std::optional<Inp
   if (jobs_.idle()) job_step_ = present_.step();
   job_to_ = to;
   const auto advance = [=, this, log = log_, acts = acts_, by_hand = present_.setup().pinned](
-                           const std::atomic<bool>& cancelled) -> Result<JobResult> {
+                           const std::atomic<bool>& canceled) -> Result<JobResult> {
     Engines& engines = present_.engines();
     const Inputs inputs = repeated ? *repeated : composed(acts, by_hand, engines.model(), *log, job_step_);
     ASPIC_CHECK(engines.use_context() ? Status() : engines.set_inputs(inputs));
     const std::uint64_t stop = repeated ? to : std::min(to, log->next_change(job_step_).value_or(to));
     const JobLimits limits = {job_step_, std::max(stop, job_step_), budget, repeated.has_value()};
-    ASPIC_TRY(JobResult result, engines.advance_outside(limits, cancelled));
+    ASPIC_TRY(JobResult result, engines.advance_outside(limits, canceled));
     result.inputs = inputs;
     job_step_ += result.steps;
     return result;
   };
-  jobs_.start([this, advance](const std::atomic<bool>& cancelled) -> Jobs::TakeUp {
-    return [this, result = advance(cancelled)]() mutable -> Status {
+  jobs_.start([this, advance](const std::atomic<bool>& canceled) -> Jobs::TakeUp {
+    return [this, result = advance(canceled)]() mutable -> Status {
       if (!result) return result.error();
       return take_up(std::move(*result));
     };

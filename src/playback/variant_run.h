@@ -26,7 +26,7 @@ class VariantRun {
   const PlaybackSession& simulation() const { return *simulation_; }
   PlaybackSession& simulation() { return *simulation_; }
 
-  /// Once for each picture: follows the leader to its time, resets and changes included. `dt` and `budget` as
+  /// Once for each image: follows the leader to its time, resets and changes included. `dt` and `budget` as
   /// of Simulation::update(). Errors: those of Simulation.
   Status follow(const Scene& scene, const PlaybackSession& leader, double dt, double budget);
   /// Goes to a time [s] that only runs like this one have come to, and rests there if those have `paused`.

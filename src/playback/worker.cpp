@@ -22,7 +22,7 @@ void Worker::start(Job job) {
 }
 
 void Worker::work() {
-  // Pictures and events go first. Where there is no such call all threads are equal, as they are by default.
+  // Images and events go first. Where there is no such call all threads are equal, as they are by default.
 #ifdef __linux__
   // Of this thread: POSIX says process, Linux means thread.
   setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + 5);
@@ -35,13 +35,13 @@ void Worker::work() {
     lock.unlock();
     std::exception_ptr thrown;
     try {
-      job(cancelled_);
+      job(canceled_);
     } catch (...) {
       thrown = std::current_exception();
     }
     lock.lock();
     if (thrown) thrown_ = thrown;
-    cancelled_ = false;
+    canceled_ = false;
     jobs_.pop_front();
     changed_.notify_all();
   }
@@ -55,7 +55,7 @@ std::size_t Worker::jobs() const {
 void Worker::cancel() {
   const std::scoped_lock lock(mutex_);
   if (jobs_.empty()) return;
-  cancelled_ = true;
+  canceled_ = true;
   jobs_.resize(1);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Work that must not hold up the picture, in a thread of its own.
+// Work that must not hold up the image, in a thread of its own.
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -17,7 +17,7 @@ namespace aspic {
 class Worker {
  public:
   /// A job looks at the flag now and then and comes to an early end once it is true.
-  using Job = std::function<void(const std::atomic<bool>& cancelled)>;
+  using Job = std::function<void(const std::atomic<bool>& canceled)>;
 
   Worker() = default;
   /// Cancels the job in progress and waits for it.
@@ -36,7 +36,7 @@ class Worker {
   void finish();
   /// The same for destructors: a job's exception is kept.
   void abandon() noexcept;
-  /// Waits for all jobs without cancelling them.
+  /// Waits for all jobs without canceling them.
   void wait();
 
  private:
@@ -47,8 +47,8 @@ class Worker {
   std::deque<Job> jobs_;  // the first one is in progress
   std::exception_ptr thrown_;
   bool ending_ = false;
-  std::atomic<bool> cancelled_ = false;  // the job in progress alone
-  std::jthread thread_;                  // from the first job on
+  std::atomic<bool> canceled_ = false;  // the job in progress alone
+  std::jthread thread_;                 // from the first job on
 };
 
 /// Results on their way from one thread to another, in order.

@@ -18,7 +18,7 @@ namespace {
 struct ArrowRow {
   ArrowKind kind;
   bool ArrowSettings::*wanted;
-  Colour colour;
+  Color color;
   std::string_view name;
 };
 constexpr ArrowRow rows[] = {
@@ -34,7 +34,7 @@ constexpr double normal_share = 0.15;  // of the room
 
 /// A point as the vertex shader takes it.
 struct Vertex {
-  std::array<float, 4> from, along, colour;
+  std::array<float, 4> from, along, color;
 };
 
 /// A length and its unit, the largest of m, cm, mm that is not above `room`.
@@ -62,7 +62,7 @@ Legend arrow_legend(const ViewSettings& view, const ArrowSet& set) {
   legend.title =
       scale > 0.0 ? fmt::format("arrows: 1 {} = {} N", name, short_number(unit * scale)) : "arrows";
   for (const ArrowRow& row : rows)
-    if (view.arrows.*row.wanted) legend.entries.push_back({row.colour, std::string(row.name)});
+    if (view.arrows.*row.wanted) legend.entries.push_back({row.color, std::string(row.name)});
   return legend;
 }
 
@@ -77,7 +77,7 @@ Status ArrowPainter::draw(const ViewSettings& view, const ArrowSet& set) {
     const bool normal = arrow.kind == ArrowKind::normal;
     if (!normal && !(scale > 0.0)) continue;
     const Vec3 along = (normal ? normal_share * set.room : 1.0 / scale) * arrow.value;
-    const Colour& c = std::ranges::find(rows, arrow.kind, &ArrowRow::kind)->colour;
+    const Color& c = std::ranges::find(rows, arrow.kind, &ArrowRow::kind)->color;
     vertices.push_back({four(arrow.from, 1.0), four(along, normal ? 0.0 : 1.0), {c[0], c[1], c[2], 1.0f}});
   }
   if (vertices.empty()) return {};
@@ -88,7 +88,7 @@ Status ArrowPainter::draw(const ViewSettings& view, const ArrowSet& set) {
   vertices_.upload_items(vertices);
   const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &vertices_, 4, sizeof(Vertex), 0},
                                       {ATTRIBUTE_VELOCITY, &vertices_, 4, sizeof(Vertex), 16},
-                                      {ATTRIBUTE_COLOUR, &vertices_, 4, sizeof(Vertex), 32}};
+                                      {ATTRIBUTE_COLOR, &vertices_, 4, sizeof(Vertex), 32}};
   const gl::VertexArray array = gl::VertexArray::create(attributes);
   array.bind();
   glUseProgram(program_.id());
@@ -97,7 +97,7 @@ Status ArrowPainter::draw(const ViewSettings& view, const ArrowSet& set) {
   glDepthMask(GL_FALSE);
   for (const bool hidden : {true, false}) {
     glDepthFunc(hidden ? GL_GREATER : GL_LEQUAL);
-    program_.set(LOCATION_BASE_COLOUR, std::array{1.0f, 1.0f, 1.0f, hidden ? 0.40f : 1.0f});
+    program_.set(LOCATION_BASE_COLOR, std::array{1.0f, 1.0f, 1.0f, hidden ? 0.40f : 1.0f});
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertices.size()));
   }
   glDepthMask(GL_TRUE);

@@ -24,7 +24,7 @@ struct Arrow {
   friend bool operator==(const Arrow&, const Arrow&) = default;
 };
 
-/// The arrows of a picture.
+/// The arrows of an image.
 struct ArrowSet {
   std::vector<Arrow> arrows;
   double room = 1.0;   ///< how long the longest one may be [m], > 0
@@ -33,7 +33,7 @@ struct ArrowSet {
   friend bool operator==(const ArrowSet&, const ArrowSet&) = default;
 };
 
-/// Force that an arrow of a metre represents [N/m]: that of the view; else the smallest 1, 2 or 5 times a
+/// Force that an arrow of a meter represents [N/m]: that of the view; else the smallest 1, 2 or 5 times a
 /// power of ten with which the longest arrow finds room; 0, for none, where no force is above the noise.
 double arrow_scale(const ViewSettings& view, const ArrowSet& set);
 
@@ -46,7 +46,7 @@ class ArrowPainter {
  public:
   explicit ArrowPainter(const std::shared_ptr<RenderProgram::Source>& source);
 
-  /// Draws into an unfinished picture whose frame block is bound and whose depth is complete: arrows are
+  /// Draws into an unfinished image whose frame block is bound and whose depth is complete: arrows are
   /// faint where something hides them, and those cut away are left out. Leaves blending off. Error
   /// (scene_rejected): no device memory.
   Status draw(const ViewSettings& view, const ArrowSet& set);

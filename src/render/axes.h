@@ -1,9 +1,9 @@
 #pragma once
-// The world's axes as a camera sees their directions, for a corner of the picture.
+// The world's axes as a camera sees their directions, for a corner of the image.
 #include <array>
 
 #include "render/camera.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 
 namespace aspic {
 
@@ -13,7 +13,7 @@ struct AxisArm {
   char letter = 'x';
   double right = 0.0, down = 0.0;
   double away = 0.0;  ///< how far it points away from the eye, −1…1
-  Colour colour = {};
+  Color color = {};
 };
 
 /// Those that point away first, so that later ones are drawn over them.

@@ -8,11 +8,11 @@
 
 namespace aspic {
 
-BackdropLook::BackdropLook(const render_layout::Frame& of_picture, const std::vector<Terrain>& placed,
-                           const std::optional<Colour>& plain, int count)
-    : frame(of_picture), terrain(placed), background(plain), samples(count) {
+BackdropLook::BackdropLook(const render_layout::Frame& of_image, const std::vector<Terrain>& placed,
+                           const std::optional<Color>& plain, int count)
+    : frame(of_image), terrain(placed), background(plain), samples(count) {
   frame.shadow_tint = frame.quantity_range = {};
-  frame.colour_mode = frame.particle_count = 0;
+  frame.color_mode = frame.particle_count = 0;
   frame.see_through = 0.0f;
 }
 
@@ -39,7 +39,7 @@ void Backdrop::forget() {
   drawn_ = false;
 }
 
-Status Backdrop::begin(gl::Context& context, const PictureTargets& like) {
+Status Backdrop::begin(gl::Context& context, const ImageTargets& like) {
   if (!images_ || !images_->is_like(like)) {
     images_.reset();
     ASPIC_TRY(images_, like.another(context));
@@ -53,24 +53,24 @@ void Backdrop::finish() {
   drawn_ = true;
 }
 
-void Backdrop::put_samples(PictureTargets& targets, const std::vector<gl::PixelBox>& boxes) const {
+void Backdrop::put_samples(ImageTargets& targets, const std::vector<gl::PixelBox>& boxes) const {
   for (const gl::PixelBox& box : boxes) {
-    targets.samples.colour.copy_from(images_->samples.colour, box);
+    targets.samples.color.copy_from(images_->samples.color, box);
     targets.samples.depth.copy_from(images_->samples.depth, box);
   }
 }
 
-void Backdrop::put_picture(PictureTargets& targets) const {
-  targets.picture.colour.copy_from(images_->picture.colour, targets.box());
+void Backdrop::put_image(ImageTargets& targets) const {
+  targets.image.color.copy_from(images_->image.color, targets.box());
 }
 
 void halve_samples(const RenderPrograms& programs, const gl::VertexArray& nothing,
-                   const PictureTargets& targets, const std::vector<gl::PixelBox>& boxes) {
-  const int samples = targets.samples.colour.settings().samples;
+                   const ImageTargets& targets, const std::vector<gl::PixelBox>& boxes) {
+  const int samples = targets.samples.color.settings().samples;
   const gl::Program& program = programs.halve[samples > 1];
   if (samples > 1) program.set(LOCATION_COUNT, samples);
   targets.behind.framebuffer.bind();
-  targets.samples.colour.bind(UNIT_FRAME);
+  targets.samples.color.bind(UNIT_FRAME);
   nothing.bind();
   glUseProgram(program.id());
   glDisable(GL_DEPTH_TEST);
@@ -85,9 +85,9 @@ void halve_samples(const RenderPrograms& programs, const gl::VertexArray& nothin
   glEnable(GL_DEPTH_TEST);
 }
 
-void resolve_samples(const PictureTargets& targets, const std::vector<gl::PixelBox>& boxes) {
+void resolve_samples(const ImageTargets& targets, const std::vector<gl::PixelBox>& boxes) {
   for (const gl::PixelBox& box : boxes)
-    targets.picture.framebuffer.copy_colour_from(targets.samples.framebuffer, box);
+    targets.image.framebuffer.copy_color_from(targets.samples.framebuffer, box);
 }
 
 }  // namespace aspic

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gpu/pass.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "render/layout.h"
 
 namespace aspic {
@@ -22,14 +22,14 @@ std::vector<Four> unturned(std::uint32_t count) {
 }
 
 /// White where they are footballs; else each in its own hue, after those of the bodies.
-std::vector<Four> colours_of(const Model& model) {
+std::vector<Four> colors_of(const Model& model) {
   const bool football = std::ranges::any_of(model.bodies, &Body::footballs);
-  std::vector<Four> colours;
+  std::vector<Four> colors;
   for (std::size_t i = 0; i < model.balls.size(); ++i) {
-    const Colour c = football ? Colour{0.86f, 0.86f, 0.84f} : body_colour(model.bodies.size() + i);
-    colours.push_back({c[0], c[1], c[2], 1.0f});
+    const Color c = football ? Color{0.86f, 0.86f, 0.84f} : body_color(model.bodies.size() + i);
+    colors.push_back({c[0], c[1], c[2], 1.0f});
   }
-  return colours;
+  return colors;
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ Result<BallBuffers> BallBuffers::create(gl::Context& context, const Model& model
   b.count_ = model.ball_count();
   b.timestep_ = model.simulation.timestep;
   ASPIC_TRY(b.turns_, gl::Buffer::of(context, "turns of balls", unturned(b.count_)));
-  ASPIC_TRY(b.colours_, gl::Buffer::of(context, "colours of balls", colours_of(model)));
+  ASPIC_TRY(b.colors_, gl::Buffer::of(context, "colors of balls", colors_of(model)));
   return b;
 }
 
@@ -72,7 +72,7 @@ void BallBuffers::draw(const gl::Program& program, const DeviceState& state) con
   const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, state.balls, 4, stride, first},
                                       {ATTRIBUTE_VELOCITY, state.balls, 4, stride, first + 16},
                                       {ATTRIBUTE_TURN, &turns_, 4, 16, 0},
-                                      {ATTRIBUTE_COLOUR, &colours_, 4, 16, 0}};
+                                      {ATTRIBUTE_COLOR, &colors_, 4, 16, 0}};
   const gl::VertexArray points = gl::VertexArray::create(attributes);
   points.bind();
   glUseProgram(program.id());

@@ -16,8 +16,8 @@
 namespace aspic {
 
 /// Buffers of one model's balls. Their context must outlive them and be current. A state does not say how a
-/// ball is turned, only how fast it turns: from picture to picture each is turned by the angular velocity it
-/// has in the later one, from the frame it started in. Nothing but the picture depends on it.
+/// ball is turned, only how fast it turns: from image to image each is turned by the angular velocity it
+/// has in the later one, from the frame it started in. Nothing but the image depends on it.
 class BallBuffers {
  public:
   /// Error (scene_rejected): no device memory.
@@ -45,7 +45,7 @@ class BallBuffers {
   std::uint32_t count_ = 0;
   double timestep_ = 0.0;
   std::optional<std::uint64_t> turned_to_;
-  gl::Buffer turns_, colours_;
+  gl::Buffer turns_, colors_;
 };
 
 }  // namespace aspic

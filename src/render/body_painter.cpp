@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "render/light_maps.h"
 
 namespace aspic {
 namespace {
 
 /// Cords of nets: dark, since grounds and sky are light.
-constexpr Colour net_colour = {0.035f, 0.040f, 0.055f};
+constexpr Color net_color = {0.035f, 0.040f, 0.055f};
 
 }  // namespace
 
@@ -41,14 +41,14 @@ void BodyPainter::draw_thickness() const {
   const gl::VertexArray skin = buffers.skin_array(*state.particles), own = buffers.shaded_skin_array();
   draw_skins(SurfaceStyle::flesh,
              [&](std::size_t body) { (buffers.parts()[body].mesh ? own : skin).bind(); });
-  if (section) section->draw(SectionUse::thickness, model, buffers, *state.particles, view.colour);
+  if (section) section->draw(SectionUse::thickness, model, buffers, *state.particles, view.color);
   glDisable(GL_BLEND);
-  targets.thickness.colour.bind(UNIT_THICKNESS);
+  targets.thickness.color.bind(UNIT_THICKNESS);
 }
 
 void BodyPainter::draw_rods_and_balls() const {
   if (view.draw.solid && !buffers.rods().empty()) {
-    programs.rods.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
+    programs.rods.set(LOCATION_BASE_COLOR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
     glUseProgram(programs.rods.id());
     buffers.rods().draw();
   }
@@ -61,7 +61,7 @@ void BodyPainter::draw_rods_and_balls() const {
 void BodyPainter::draw_particles() const {
   if (!view.draw.particles) return;
   programs.particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(buffers.spacing())));
-  programs.particles.set(LOCATION_BASE_COLOUR, std::array{0.62f, 0.64f, 0.68f, 1.0f});
+  programs.particles.set(LOCATION_BASE_COLOR, std::array{0.62f, 0.64f, 0.68f, 1.0f});
   glUseProgram(programs.particles.id());
   const gl::VertexArray points = buffers.particle_array(*state.particles);
   points.bind();
@@ -71,7 +71,7 @@ void BodyPainter::draw_particles() const {
 }
 
 void BodyPainter::draw_section() const {
-  if (section) section->draw(SectionUse::colour, model, buffers, *state.particles, view.colour);
+  if (section) section->draw(SectionUse::color, model, buffers, *state.particles, view.color);
 }
 
 void BodyPainter::draw_springs() const {
@@ -93,7 +93,7 @@ void BodyPainter::draw_cords() const {
   programs.springs.set(LOCATION_FADES, 1);
   const gl::VertexArray lines = buffers.spring_array(*state.particles);
   lines.bind();
-  colour_map.bind(UNIT_COLOUR_MAP);
+  color_map.bind(UNIT_COLOR_MAP);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
@@ -106,8 +106,8 @@ void BodyPainter::draw_cords() const {
 void BodyPainter::draw_run(const SpringRun& run) const {
   const SpringClass& c = run.constants;
   if (run.index_count == 0) return;
-  const bool plain = draws_as_cord(view.draw, run) && view.colour != ViewColour::type;
-  programs.springs.set(LOCATION_BASE_COLOUR, with_alpha(plain ? net_colour : spring_colour(c.type), 1.0));
+  const bool plain = draws_as_cord(view.draw, run) && view.color != ViewColor::type;
+  programs.springs.set(LOCATION_BASE_COLOR, with_alpha(plain ? net_color : spring_color(c.type), 1.0));
   programs.springs.set(LOCATION_SPRING,
                        std::array{static_cast<float>(c.stiffness), static_cast<float>(c.damping),
                                   static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
@@ -124,8 +124,8 @@ void BodyPainter::draw_jelly(JellySide side) const {
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
   }
-  targets.behind.colour.bind(UNIT_BEHIND);
-  colour_map.bind(UNIT_COLOUR_MAP);
+  targets.behind.color.bind(UNIT_BEHIND);
+  color_map.bind(UNIT_COLOR_MAP);
   draw_parts(program, SurfaceStyle::flesh);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
@@ -139,7 +139,7 @@ void BodyPainter::draw_sheets() const {
   // Springs and particles lie in the surface: it gives way to them.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.0f, 1.0f);
-  colour_map.bind(UNIT_COLOUR_MAP);
+  color_map.bind(UNIT_COLOR_MAP);
   draw_parts(programs.sheet, SurfaceStyle::sheet);
   glPolygonOffset(0.0f, 0.0f);
   glDisable(GL_POLYGON_OFFSET_FILL);
@@ -151,9 +151,9 @@ void BodyPainter::draw_parts(const gl::Program& program, SurfaceStyle style) con
   const gl::VertexArray skin = buffers.shaded_skin_array();
   skin.bind();
   draw_skins(style, [&](std::size_t body) {
-    const Colour own = tint ? *tint : body_colour(body);
-    const Colour colour = view.colour == ViewColour::material ? own : neutral_body_colour();
-    program.set(LOCATION_BASE_COLOUR, with_alpha(colour, light_reach(model.bodies[body])));
+    const Color own = tint ? *tint : body_color(body);
+    const Color color = view.color == ViewColor::material ? own : neutral_body_color();
+    program.set(LOCATION_BASE_COLOR, with_alpha(color, light_reach(model.bodies[body])));
   });
 }
 

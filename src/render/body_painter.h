@@ -1,11 +1,11 @@
 #pragma once
-// Bodies, springs, particles and balls: everything of a picture that a solver moves.
+// Bodies, springs, particles and balls: everything of an image that a solver moves.
 #include <optional>
 
 #include "aspic/scene.h"
 #include "device/device_state.h"
 #include "model/model.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "render/model_buffers.h"
 #include "render/programs.h"
 #include "render/section.h"
@@ -25,12 +25,12 @@ struct BodyPainter {
   const Model& model;
   const RenderPrograms& programs;
   const ModelBuffers& buffers;
-  const PictureTargets& targets;
-  const gl::Texture& colour_map;
+  const ImageTargets& targets;
+  const gl::Texture& color_map;
   const DeviceState& state;
   const ViewSettings& view;
   const SectionPainter* section = nullptr;  ///< prepared for the model where the view has a cut
-  std::optional<Colour> tint = {};          ///< of skins coloured by material, instead of each body's own
+  std::optional<Color> tint = {};           ///< of skins colored by material, instead of each body's own
 
   /// Into the target of that name, which it binds to its texture unit.
   void draw_thickness() const;

@@ -1,5 +1,5 @@
 #pragma once
-// A camera over a picture: matrices, and the way between world and pixels.
+// A camera over an image: matrices, and the way between world and pixels.
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -18,16 +18,16 @@ struct Ray {
   Vec3 direction;  ///< unit
 };
 
-/// Width/height below which a picture shows more above and below, so that its sides are not cut.
+/// Width/height below which an image shows more above and below, so that its sides are not cut.
 inline constexpr double narrowest = 4.0 / 3.0;
 
-/// The settings for a picture of width × height, both > 0: a narrow one shows as much from side to side as
+/// The settings for an image of width × height, both > 0: a narrow one shows as much from side to side as
 /// one of 4 : 3.
 CameraSettings fitted(CameraSettings settings, double width, double height);
 
 class Camera {
  public:
-  /// `settings` as a scene accepts them; a picture of width × height pixels, both ≥ 1. Up is +y, or −z where
+  /// `settings` as a scene accepts them; an image of width × height pixels, both ≥ 1. Up is +y, or −z where
   /// the camera looks straight up or down.
   Camera(const CameraSettings& settings, int width, int height);
 
@@ -42,10 +42,10 @@ class Camera {
   /// From the settings' position to the target [m].
   float target_distance() const { return target_distance_; }
 
-  /// Of the picture [pixels].
+  /// Of the image [pixels].
   int width() const { return width_; }
   int height() const { return height_; }
-  /// The sight line through a place of the picture [pixels from left and top], from the settings' position
+  /// The sight line through a place of the image [pixels from left and top], from the settings' position
   /// or, of an orthographic camera, from beside it.
   Ray ray_through(double x, double y) const;
 

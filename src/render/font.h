@@ -1,5 +1,5 @@
 #pragma once
-// Letters as pictures: DejaVu Sans, embedded, rasterised at the height they are shown at.
+// Letters as images: DejaVu Sans, embedded, rasterized at the height they are shown at.
 #include <cstddef>
 #include <map>
 #include <string_view>
@@ -7,11 +7,11 @@
 
 namespace aspic {
 
-/// One rasterised character.
+/// One rasterized character.
 struct Glyph {
   int atlas_x = 0, atlas_y = 0;  ///< its place in the atlas [pixels]
-  int width = 0, height = 0;     ///< of its picture [pixels], 0 for blanks
-  int left = 0, top = 0;         ///< from the pen to the picture's top left; y down, so `top` is mostly < 0
+  int width = 0, height = 0;     ///< of its image [pixels], 0 for blanks
+  int left = 0, top = 0;         ///< from the pen to the image's top left; y down, so `top` is mostly < 0
   float advance = 0.0f;          ///< to the next pen position [pixels]
 };
 

@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "model/terrain.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "render/light_maps.h"
 
 namespace aspic {
@@ -61,7 +61,7 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   block.sun = glm::vec4(to_sun, 0);
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
   block.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);
-  const Colour tint = content.view.colour == ViewColour::material ? body_colour(0) : neutral_body_colour();
+  const Color tint = content.view.color == ViewColor::material ? body_color(0) : neutral_body_color();
   const bool solid = content.view.draw.solid && content.has_flesh;
   for (std::size_t i = 0; i < 3; ++i)
     block.shadow_tint[static_cast<int>(i)] = solid ? 0.10f + 0.22f * tint[i] : 0.15f;
@@ -73,8 +73,8 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
     const Geometry<double> ball = terrain_at(t, model.simulation.timestep, content.step).geometry;
     block.shadow_spheres[block.shadow_sphere_count++] = glm::vec4(to_glm(ball.vectors[0]), ball.numbers[0]);
   }
-  static_assert(COLOUR_ACTUATION == static_cast<std::uint32_t>(ViewColour::actuation));
-  block.colour_mode = static_cast<std::uint32_t>(content.view.colour);
+  static_assert(COLOR_ACTUATION == static_cast<std::uint32_t>(ViewColor::actuation));
+  block.color_mode = static_cast<std::uint32_t>(content.view.color);
   block.particle_count = model.particle_count();
   block.cut = glm::vec4(0, 0, 0, 1);
   if (const CutSettings& cut = content.view.cut; cut.on()) {

@@ -1,5 +1,5 @@
 #pragma once
-// The block that every drawing shader reads, of one picture.
+// The block that every drawing shader reads, of one image.
 #include "aspic/scene.h"
 #include "model/model.h"
 #include "render/camera.h"
@@ -11,14 +11,14 @@ namespace aspic {
 /// What the block holds besides model and camera.
 struct FrameContent {
   ViewSettings view;
-  QuantityRange range = {};  ///< ends of the colour scale
+  QuantityRange range = {};  ///< ends of the color scale
   bool has_flesh = false;    ///< the model has translucent bodies
   bool shadows = true;
   std::uint64_t step = 0;      ///< of the state: moving terrain is where it is then
   double section_depth = 0.0;  ///< behind the cut [m]
 };
 
-/// The block of a picture of width × height pixels.
+/// The block of an image of width × height pixels.
 render_layout::Frame frame_block(const Model& model, const Camera& camera, int width, int height,
                                  const FrameContent& content);
 

@@ -16,7 +16,7 @@ Result<DeviceState> upload(Renderer& renderer, Solver& solver) {
   return renderer.upload(std::move(particles), std::move(balls), step);
 }
 
-Result<std::unique_ptr<FramePainter>> FramePainter::create(gl::Context& context, const PictureSize& size,
+Result<std::unique_ptr<FramePainter>> FramePainter::create(gl::Context& context, const ImageSize& size,
                                                            const std::vector<RenderedRun>& runs) {
   const gl::Current here(context);
   ASPIC_CHECK(here.status());
@@ -39,7 +39,7 @@ Result<std::unique_ptr<FramePainter>> FramePainter::create(gl::Context& context,
 }
 
 const gl::Framebuffer& FramePainter::frame() const {
-  return parts_.size() == 1 ? parts_.front().renderer->picture() : together_->frame();
+  return parts_.size() == 1 ? parts_.front().renderer->image() : together_->frame();
 }
 
 Status FramePainter::draw(const std::vector<DeviceState>& states, const std::vector<RunView>& views) {
@@ -57,14 +57,14 @@ Status FramePainter::draw(const std::vector<DeviceState>& states, const std::vec
   }
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
-    // The widest range of all that share a part's scale, so that colours can be compared.
+    // The widest range of all that share a part's scale, so that colors can be compared.
     QuantityRange range = part.own_range;
     for (const Part& other : parts_)
       if (share_scale(part.run.scene->view, other.run.scene->view)) range = widest(range, other.own_range);
     if (part.drawn_range == range && part.drawn_text == views[i].text) continue;
     const Tile& tile = together_->tiles()[i];
     ASPIC_CHECK(draw_part(part, tile.width, tile.height, states[i], views[i], range));
-    together_->place(i, part.renderer->picture(), views[i].framed);
+    together_->place(i, part.renderer->image(), views[i].framed);
     part.drawn_range = range;
     part.drawn_text = views[i].text;
   }
@@ -73,7 +73,7 @@ Status FramePainter::draw(const std::vector<DeviceState>& states, const std::vec
 
 Status FramePainter::draw_part(Part& part, int width, int height, const DeviceState& state,
                                const RunView& view, const std::optional<QuantityRange>& range) {
-  PictureOptions options;
+  ImageOptions options;
   options.view = part.run.scene->view;
   options.view.camera = view.camera;
   options.steady =

@@ -30,11 +30,11 @@ struct RunView {
   std::vector<OverlayLine> text;  ///< empty: no panel
   int text_height = 0;            ///< [pixels]; 0: a share of the frame's height
   bool legend = true;
-  std::optional<Colour> tint = {};  ///< as PictureOptions::tint
-  bool framed = false;              ///< with a border in the run's colour, where there are several runs
+  std::optional<Color> tint = {};  ///< as ImageOptions::tint
+  bool framed = false;             ///< with a border in the run's color, where there are several runs
   ArrowSet arrows;
-  std::vector<BallTurn> ball_turns;  ///< as PictureOptions::ball_turns
-  std::vector<double> channels;      ///< as PictureOptions::channels
+  std::vector<BallTurn> ball_turns;  ///< as ImageOptions::ball_turns
+  std::vector<double> channels;      ///< as ImageOptions::channels
 };
 
 /// Uploads the state of a solver that works in memory. Errors: those of Solver::read_into() and
@@ -46,7 +46,7 @@ Result<DeviceState> upload(Renderer& renderer, Solver& solver);
 class FramePainter {
  public:
   /// Errors: those of Renderer::create() and set_model(), and of images.
-  static Result<std::unique_ptr<FramePainter>> create(gl::Context& context, const PictureSize& size,
+  static Result<std::unique_ptr<FramePainter>> create(gl::Context& context, const ImageSize& size,
                                                       const std::vector<RenderedRun>& runs);
 
   std::size_t runs() const { return parts_.size(); }
@@ -74,7 +74,7 @@ class FramePainter {
                    const std::optional<QuantityRange>& range);
 
   gl::Context* context_ = nullptr;
-  PictureSize size_;
+  ImageSize size_;
   std::vector<Part> parts_;
   std::optional<ComparisonCanvas> together_;  // of several runs
 };

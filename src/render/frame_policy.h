@@ -1,5 +1,5 @@
 #pragma once
-// How pictures are drawn where that is dear: by a software rasteriser, on the processors that simulate.
+// How images are drawn where that is dear: by a software rasterizer, on the processors that simulate.
 #include <memory>
 
 #include "gpu/context.h"
@@ -7,23 +7,23 @@
 
 namespace aspic {
 
-/// Of one renderer. Hardware has none: it draws each picture completely, at once and in full resolution, and
+/// Of one renderer. Hardware has none: it draws each image completely, at once and in full resolution, and
 /// keeps nothing of it.
 class FramePolicy {
  public:
   /// That of a context's device; null: hardware.
   static std::unique_ptr<FramePolicy> create(const gl::Context& context);
 
-  /// Of pictures of what moves; what is at rest is drawn finely.
+  /// Of images of what moves; what is at rest is drawn finely.
   Resolution resolution;
-  /// What steps between two pictures may take [s]: a picture takes longer anyway.
+  /// What steps between two images may take [s]: an image takes longer anyway.
   static constexpr double step_seconds = 0.030;
   /// The same where there is no policy.
   static constexpr double hardware_step_seconds = 0.012;
 
-  /// Waits until all that was begun is drawn: the time since then is the picture's.
+  /// Waits until all that was begun is drawn: the time since then is the image's.
   void wait() const;
-  /// From one picture to the next [s]: no more of them than a display shows, only what is new, and where
+  /// From one image to the next [s]: no more of them than a display shows, only what is new, and where
   /// steps are late a third of the time at most. The last one took `seconds`.
   double interval(bool nothing_new, bool late, double seconds) const;
 

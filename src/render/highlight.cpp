@@ -11,10 +11,10 @@ namespace aspic {
 namespace {
 
 // Linear light.
-constexpr std::array ring_colour = {1.0f, 0.96f, 0.86f, 1.0f};
-constexpr std::array pull_colour = {1.0f, 0.62f, 0.08f, 1.0f};
-constexpr std::array pinned_colour = {0.95f, 0.95f, 0.92f, 1.0f};
-constexpr std::array marked_colour = {1.0f, 0.62f, 0.08f, 1.0f};
+constexpr std::array ring_color = {1.0f, 0.96f, 0.86f, 1.0f};
+constexpr std::array pull_color = {1.0f, 0.62f, 0.08f, 1.0f};
+constexpr std::array pinned_color = {0.95f, 0.95f, 0.92f, 1.0f};
+constexpr std::array marked_color = {1.0f, 0.62f, 0.08f, 1.0f};
 
 // Least radii, in units.
 constexpr double ring_size = 9.0, pinned_size = 4.5, marked_size = 7.5, anchor_size = 8.0, line_size = 2.2;
@@ -46,9 +46,9 @@ void HighlightPainter::draw_all(const ModelBuffers& model, const gl::Buffer& par
                                 const Tone& tone) const {
   const float radius = draw.particles ? static_cast<float>(particle_radius(model.spacing())) : 0.0f;
   const auto prepare = [&](const RenderProgram& program, float style, double size,
-                           const std::array<float, 4>& colour, float share) {
+                           const std::array<float, 4>& color, float share) {
     if (style != MARK_LINE) program.set(LOCATION_RADIUS, share * radius);
-    program.set(LOCATION_BASE_COLOUR, colour);
+    program.set(LOCATION_BASE_COLOR, color);
     program.set(LOCATION_MARK, std::array{style, static_cast<float>(size * options.unit),
                                           static_cast<float>(tone.opacity), tone.encoded ? 1.0f : 0.0f});
     program.set(LOCATION_ANCHOR, std::array{0.0f, 0.0f, 0.0f, 0.0f});
@@ -58,26 +58,26 @@ void HighlightPainter::draw_all(const ModelBuffers& model, const gl::Buffer& par
   const gl::VertexArray points = model.particle_array(particles);
   points.bind();
   if (options.pinned && draw.particles) {
-    prepare(marks_, MARK_PINNED, pinned_size, pinned_colour, 0.7f);
+    prepare(marks_, MARK_PINNED, pinned_size, pinned_color, 0.7f);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(model.particle_count()));
   }
   if (!options.marked.empty()) {
     const gl::VertexArray marked = model.listed_array(particles, list_);
     marked.bind();
-    prepare(marks_, MARK_DIAMOND, marked_size, marked_colour, 1.1f);
+    prepare(marks_, MARK_DIAMOND, marked_size, marked_color, 1.1f);
     glDrawElements(GL_POINTS, static_cast<GLsizei>(options.marked.size()), GL_UNSIGNED_INT, nullptr);
     points.bind();
   }
   if (options.pull) {
-    prepare(pull_, MARK_LINE, line_size, pull_colour, 0.0f);
+    prepare(pull_, MARK_LINE, line_size, pull_color, 0.0f);
     pull_.set(LOCATION_ANCHOR, four(options.pull->anchor, 1.0));
     point(options.pull->particle);
-    prepare(marks_, MARK_ANCHOR, anchor_size, pull_colour, 0.0f);
+    prepare(marks_, MARK_ANCHOR, anchor_size, pull_color, 0.0f);
     marks_.set(LOCATION_ANCHOR, four(options.pull->anchor, 1.0));
     point(options.pull->particle);
   }
   if (options.hovered) {
-    prepare(marks_, MARK_RING, ring_size, ring_colour, 1.8f);
+    prepare(marks_, MARK_RING, ring_size, ring_color, 1.8f);
     point(*options.hovered);
   }
 }

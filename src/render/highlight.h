@@ -26,7 +26,7 @@ struct HighlightOptions {
   std::optional<Pull> pull = {};              ///< a band, and a disc with a cross at the anchor
   std::vector<std::uint32_t> marked = {};     ///< get a diamond, as those do that somebody has pinned by hand
   bool pinned = true;                         ///< where particles are drawn, pinned ones get a small diamond
-  double unit = 1.0;                          ///< what marks are measured in [pixels of the picture], > 0
+  double unit = 1.0;                          ///< what marks are measured in [pixels of the image], > 0
 
   friend bool operator==(const HighlightOptions&, const HighlightOptions&) = default;
 };
@@ -38,11 +38,11 @@ class HighlightPainter {
   static Result<std::unique_ptr<HighlightPainter>> create(
       const std::shared_ptr<RenderProgram::Source>& source);
 
-  /// Draws into an unfinished picture whose frame block is bound and whose depth is complete: marks are faint
+  /// Draws into an unfinished image whose frame block is bound and whose depth is complete: marks are faint
   /// where something hides them. Leaves blending off. Error (scene_rejected): no device memory.
   Status draw_within(const ModelBuffers& model, const gl::Buffer& particles, const DrawSettings& draw,
                      const HighlightOptions& options);
-  /// Draws over a finished picture in a framebuffer that takes encoded values, all in sight; `frame` is the
+  /// Draws over a finished image in a framebuffer that takes encoded values, all in sight; `frame` is the
   /// block of its size. Leaves blending off. Error (scene_rejected): no device memory.
   Status draw_over(const ModelBuffers& model, const gl::Buffer& particles, const DrawSettings& draw,
                    const HighlightOptions& options, const render_layout::Frame& frame);

@@ -60,14 +60,14 @@ bool LightMaps::hold(const std::optional<LightLook>& look) {
 
 void LightMaps::bind(const ModelBuffers& model) const {
   model.light_boxes().bind(gl::BufferKind::uniform, BINDING_LIGHT_BOXES);
-  maps_[LIGHT_SUN].colour.bind(UNIT_SUN_MAP);
-  maps_[LIGHT_SKY].colour.bind(UNIT_SKY_MAP);
+  maps_[LIGHT_SUN].color.bind(UNIT_SUN_MAP);
+  maps_[LIGHT_SKY].color.bind(UNIT_SKY_MAP);
 }
 
 void LightMaps::leave_out(const ModelBuffers& model) {
   model.light_boxes().bind(gl::BufferKind::uniform, BINDING_LIGHT_BOXES);
-  empty_.colour.bind(UNIT_SUN_MAP);
-  empty_.colour.bind(UNIT_SKY_MAP);
+  empty_.color.bind(UNIT_SUN_MAP);
+  empty_.color.bind(UNIT_SKY_MAP);
 }
 
 void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model, const DeviceState& state,
@@ -123,7 +123,7 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
                                  static_cast<float>(spring_radius(model.spacing(), run.constants.type)));
       draw_lines(run);
     }
-    map.colour.generate_mipmaps();
+    map.color.generate_mipmaps();
   }
   glBlendEquation(GL_FUNC_ADD);
   glDisable(GL_BLEND);

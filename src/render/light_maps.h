@@ -25,7 +25,7 @@ bool draws_as_cord(const DrawSettings& draw, const SpringRun& run);
 /// Whether balls are drawn: among surfaces, and among particles.
 bool draws_balls(const DrawSettings& draw);
 
-/// What light maps show of a model, as far as pictures differ.
+/// What light maps show of a model, as far as images differ.
 struct LightLook {
   std::uint64_t state = 0;  ///< a number that another state does not have
   std::uint64_t step = 0;   ///< of it: balls turn by it

@@ -15,7 +15,7 @@ namespace aspic {
 struct Mesh {
   std::vector<std::array<float, 4>> vertices;  ///< position; the last component is 1
   std::vector<std::array<float, 4>> normals;   ///< unit, outwards, the last component 0; or none at all
-  std::vector<std::uint32_t> indices;          ///< three per triangle, anticlockwise from outside
+  std::vector<std::uint32_t> indices;          ///< three per triangle, counterclockwise from outside
 };
 
 /// A vector in single precision, as shaders take it, with its fourth component.

@@ -11,7 +11,7 @@
 #include "gpu/pass.h"
 #include "model/actuation.h"
 #include "model/springs.h"
-#include "render/software_rasteriser.h"
+#include "render/software_rasterizer.h"
 
 namespace aspic {
 namespace {
@@ -21,9 +21,9 @@ using gl::ReadBy;
 /// Extremes of no value at all.
 constexpr std::array<std::uint32_t, EXTREMES> no_extremes = {0xffffffffu, 0u, 0xffffffffu, 0u};
 
-/// Whether a state brings the words that name neighbours.
-bool has_neighbours(const DeviceState& state) {
-  return state.springs && (state.springs->kind == IncidentWords::neighbours ||
+/// Whether a state brings the words that name neighbors.
+bool has_neighbors(const DeviceState& state) {
+  return state.springs && (state.springs->kind == IncidentWords::neighbors ||
                            state.springs->kind == IncidentWords::beside_lattices);
 }
 
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
 }  // namespace
 
 Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& model) {
-  // Passes over pictures see complete states.
+  // Passes over images see complete states.
   ASPIC_CHECK(gl::Buffer::check_size(context, "particle state",
                                      std::uint64_t{model.particle_count()} * sizeof(layout::Particle)));
   ModelBuffers b;
@@ -97,7 +97,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   if (least > 0.0) b.spacing_ = least;
 
   ASPIC_TRY(b.quantity_,
-            gl::Buffer::of(context, "coloured quantity", std::vector<float>(b.particle_count_, 0.0f)));
+            gl::Buffer::of(context, "colored quantity", std::vector<float>(b.particle_count_, 0.0f)));
   ASPIC_TRY(b.extremes_, gl::Buffer::of(context, "extremes", no_extremes));
   ASPIC_TRY(b.bounds_, gl::Buffer::of(context, "light bounds", std::vector<render_layout::Bounds>(LIGHTS)));
   ASPIC_TRY(b.light_boxes_,
@@ -124,12 +124,12 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
     for (const SpringClass& c : model.spring_classes) classes.push_back(rounded(c));
     ASPIC_TRY(spring_classes_, gl::Buffer::of(context, "spring classes", classes));
   }
-  if (has_neighbours(state))
+  if (has_neighbors(state))
     return gl::Buffer::check_size(context, "incident springs", state.springs->incident.bytes());
   if (own_springs_) return {};
   ASPIC_TRY(own_springs_, make_spring_buffers(context, model,
                                               has_lattices(model) ? IncidentWords::beside_lattices
-                                                                  : IncidentWords::neighbours));
+                                                                  : IncidentWords::neighbors));
   return {};
 }
 
@@ -195,7 +195,7 @@ void ModelBuffers::compute_quantity(const RenderPrograms& programs, const Device
   std::vector<gl::Binding> bindings = {
       {BINDING_PARTICLES, state.particles}, {BINDING_QUANTITY, &quantity_}, {BINDING_EXTREMES, &extremes_}};
   if (balls > 0) bindings.push_back({BINDING_BALLS, state.balls});
-  if (const SpringBuffers* springs = has_neighbours(state) ? state.springs : own_springs_.get()) {
+  if (const SpringBuffers* springs = has_neighbors(state) ? state.springs : own_springs_.get()) {
     bindings.push_back({BINDING_INCIDENT_START, &springs->incident_start});
     bindings.push_back({BINDING_INCIDENT, &springs->incident});
     bindings.push_back({BINDING_LATTICES, &springs->lattices, gl::BufferKind::uniform});

@@ -1,5 +1,5 @@
 #pragma once
-// A model's data on the device for drawing, and the data derived from its particles for each picture.
+// A model's data on the device for drawing, and the data derived from its particles for each image.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -36,21 +36,21 @@ class ModelBuffers {
   /// Error (scene_rejected): no device memory, or larger than the device's buffers.
   static Result<ModelBuffers> create(gl::Context& context, const Model& model);
 
-  /// What drawing springs needs; many pictures do without. Does nothing the second time. `model` as in
+  /// What drawing springs needs; many images do without. Does nothing the second time. `model` as in
   /// create(). Error (scene_rejected): no device memory.
   Status prepare_lines(gl::Context& context, const Model& model);
-  /// What colours by strain or force need: a particle's springs, those of `state` where it has them. Errors:
+  /// What colors by strain or force need: a particle's springs, those of `state` where it has them. Errors:
   /// as make_spring_buffers; no_device (more springs at one particle than a kernel may loop over).
   Status prepare_incident(gl::Context& context, const Model& model, const DeviceState& state);
   /// Gives springs their rest lengths at a step, with these numbers in the inputs' channels, and in the place
-  /// of their damping those without actuation where a colour shows `actuation`. After both of the above; does
+  /// of their damping those without actuation where a color shows `actuation`. After both of the above; does
   /// nothing where no rest length changes and none is shown.
   void set_rest_lengths(const Model& model, std::uint64_t step, std::span<const double> channels,
                         bool actuation);
 
   /// The vertices of the skin at these particles' positions, with what compute_quantity() found before.
   void compute_skin(const RenderPrograms& programs, const gl::Buffer& particles);
-  /// The coloured quantity of each particle; the frame block must be bound. Strain and force want
+  /// The colored quantity of each particle; the frame block must be bound. Strain and force want
   /// prepare_incident() with the same state before.
   void compute_quantity(const RenderPrograms& programs, const DeviceState& state);
   /// Waits for the device: least and largest value that compute_quantity() found on particles and launched
@@ -89,7 +89,7 @@ class ModelBuffers {
   const DeviceMesh& rods() const { return rods_; }
   /// Empty before prepare_lines().
   const std::vector<SpringRun>& springs() const { return springs_; }
-  /// Typical distance between neighbours [m]; 1 without springs.
+  /// Typical distance between neighbors [m]; 1 without springs.
   double spacing() const { return spacing_; }
   const gl::Buffer& light_boxes() const { return light_boxes_; }
   /// SkinVertex each, in the order of Surface::fan_vertex, then of Surface::mesh_corners.

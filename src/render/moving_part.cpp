@@ -12,10 +12,10 @@
 namespace aspic {
 namespace {
 
-/// Shares of a complete picture, or of two boxes, above which one box replaces them.
+/// Shares of a complete image, or of two boxes, above which one box replaces them.
 constexpr double nearly_whole = 0.75, nearly_joined = 1.15;
 
-/// Looks at single points through a picture's camera.
+/// Looks at single points through an image's camera.
 class Lens {
  public:
   explicit Lens(const render_layout::Frame& frame)
@@ -36,7 +36,7 @@ class Lens {
       everywhere_ = true;
       return;
     }
-    // A sphere beside the line of sight looks longer, by less than the picture's own angle makes it.
+    // A sphere beside the line of sight looks longer, by less than the image's own angle makes it.
     const double x = clip.x / clip.w, y = clip.y / clip.w;
     const double pad = margin + radius * pixels_ / w * (1.0 + std::abs(x) + std::abs(y));
     const glm::dvec2 at(0.5 * width_ * (1.0 + x), 0.5 * height_ * (1.0 + y));
@@ -60,7 +60,7 @@ class Lens {
  private:
   glm::dmat4 view_projection_;
   double width_, height_;
-  double pixels_;   // of a metre at a distance of one metre
+  double pixels_;   // of a meter at a distance of one meter
   double nearest_;  // what is nearer may lie anywhere [m]
   bool parallel_;   // sight lines, of an orthographic camera
   glm::dvec2 lower_ = glm::dvec2(1e300), upper_ = glm::dvec2(-1e300);
@@ -86,12 +86,12 @@ void add_shadow(Lens& lens, const render_layout::Frame& frame, std::size_t light
   for (const layout::Particle& p : things.particles) box.add(to_light * place(p.position));
   for (const layout::Ball& ball : things.balls) {
     if (ball.velocity.w == 0.0f) continue;
-    const glm::dvec3 centre = to_light * place(ball.position);
-    box.add(centre - static_cast<double>(ball.position.w));
-    box.add(centre + static_cast<double>(ball.position.w));
+    const glm::dvec3 center = to_light * place(ball.position);
+    box.add(center - static_cast<double>(ball.position.w));
+    box.add(center + static_cast<double>(ball.position.w));
   }
   if (box.empty()) box.add(glm::dvec3(0.0));
-  const glm::dvec3 size = box.upper - box.lower, centre = 0.5 * (box.lower + box.upper);
+  const glm::dvec3 size = box.upper - box.lower, center = 0.5 * (box.lower + box.upper);
   const double margin = light == LIGHT_SKY ? SKY_MAP_MARGIN : SUN_MAP_MARGIN;
   const double half = 1.001 * (margin * std::max(size.x, size.y) + MAP_BORDER);
   const glm::dmat3 to_world = glm::transpose(to_light);
@@ -102,7 +102,7 @@ void add_shadow(Lens& lens, const render_layout::Frame& frame, std::size_t light
   if (slant < 0.049) return;
   for (const double x : {-half, half}) {
     for (const double y : {-half, half}) {
-      const glm::dvec3 start = to_world * (centre + glm::dvec3(x, y, 0.0));
+      const glm::dvec3 start = to_world * (center + glm::dvec3(x, y, 0.0));
       lens.add(start - glm::dot(n, start - at) / slant * towards, 0.0, things.margin);
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Where on a picture anything can be that a state moves: the rest is what it was before.
+// Where on an image anything can be that a state moves: the rest is what it was before.
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -26,18 +26,18 @@ struct Extent {
 };
 Extent extent_of(const Mesh& mesh);
 
-/// What of a picture changes with the state.
+/// What of an image changes with the state.
 struct MovingThings {
   std::span<const layout::Particle> particles;
   std::span<const layout::Ball> balls;  ///< those without inverse mass are not drawn
   double particle_radius = 0.0;         ///< around each particle that something may be drawn [m]
-  double margin = 0.0;                  ///< and on the picture [pixels]
+  double margin = 0.0;                  ///< and on the image [pixels]
   std::vector<Extent> extents;          ///< other things that may look otherwise
   std::vector<FlatPart> shadowed;       ///< planes that things throw shadows on
 };
 
-/// Boxes of the picture of `frame` outside of which nothing of them is; no two overlap much. The whole
-/// picture where that cannot be told.
+/// Boxes of the image of `frame` outside of which nothing of them is; no two overlap much. The whole
+/// image where that cannot be told.
 std::vector<gl::PixelBox> moving_part(const render_layout::Frame& frame, const MovingThings& things);
 
 }  // namespace aspic

@@ -43,8 +43,8 @@ FactsPanel facts_panel(const Font& font, const std::vector<OverlayLine>& lines) 
           static_cast<float>(lines.size()) * step + 2 * inset - (step - em), labels};
 }
 
-int text_height_in(int picture_height) {
-  return std::clamp(static_cast<int>(std::lround(picture_height / 42.0)), 11, 256);
+int text_height_in(int image_height) {
+  return std::clamp(static_cast<int>(std::lround(image_height / 42.0)), 11, 256);
 }
 
 std::vector<OverlayLine> fitted_lines(const std::vector<OverlayLine>& lines, float room,
@@ -118,15 +118,15 @@ void OverlayPainter::text(float x, float y, std::string_view utf8, const std::ar
   }
 }
 
-void OverlayPainter::facts(const std::vector<OverlayLine>& all, float picture_width) {
+void OverlayPainter::facts(const std::vector<OverlayLine>& all, float image_width) {
   const auto em = static_cast<float>(font_->pixel_height());
   float widest_value = 0.0f;
   for (const OverlayLine& line : all) widest_value = std::max(widest_value, font_->width_of(line.value));
   const std::vector<OverlayLine> lines =
-      fitted_lines(all, picture_width - widest_value - (2.0f * (margin + padding) + column_gap) * em,
+      fitted_lines(all, image_width - widest_value - (2.0f * (margin + padding) + column_gap) * em,
                    [this](std::string_view label) { return font_->width_of(label); });
   const FactsPanel box = facts_panel(*font_, lines);
-  // Colours are darker than the text that the usual backdrop is for.
+  // Colors are darker than the text that the usual backdrop is for.
   const bool tinted =
       std::ranges::any_of(lines, [](const OverlayLine& line) { return line.tint.has_value(); });
   panel(box.left, box.top, box.width, box.height, tinted ? 0.92f : backdrop[3]);
@@ -141,7 +141,7 @@ void OverlayPainter::facts(const std::vector<OverlayLine>& all, float picture_wi
   }
 }
 
-float OverlayPainter::scale(const Legend& legend, float picture_width, float bottom) {
+float OverlayPainter::scale(const Legend& legend, float image_width, float bottom) {
   const auto em = static_cast<float>(font_->pixel_height());
   const auto step = static_cast<float>(font_->line_height());
   const float inset = std::round(padding * em);
@@ -154,7 +154,7 @@ float OverlayPainter::scale(const Legend& legend, float picture_width, float bot
   const float rows = 1.0f + (bar ? 1.0f : static_cast<float>(legend.entries.size()));
   const float height =
       rows * step + (bar ? std::round((bar_height + 0.3f) * em) : 0.0f) + 2 * inset - (step - em);
-  const float left = std::round(picture_width - margin * em - width - 2 * inset);
+  const float left = std::round(image_width - margin * em - width - 2 * inset);
   const float top = std::round(bottom - margin * em - height);
   panel(left, top, width + 2 * inset, height, backdrop[3]);
   const float x = left + inset;
@@ -163,7 +163,7 @@ float OverlayPainter::scale(const Legend& legend, float picture_width, float bot
   y += step;
   for (const Legend::Entry& entry : legend.entries) {
     const float size = std::round(0.8f * em);
-    const std::array<float, 4> tint = {entry.colour[0], entry.colour[1], entry.colour[2], 1.0f};
+    const std::array<float, 4> tint = {entry.color[0], entry.color[1], entry.color[2], 1.0f};
     const float h = 0.5f * size;
     rectangle(x, y + std::round(0.12f * em), size, size, {-h, -h, h, h}, tint,
               {panel_shape, h, h, 0.25f * size});
@@ -196,10 +196,10 @@ void OverlayPainter::line(const std::array<float, 2>& from, const std::array<flo
     vertex(along, aside);
 }
 
-void OverlayPainter::axes(const Camera& camera, float picture_width) {
+void OverlayPainter::axes(const Camera& camera, float image_width) {
   const auto em = static_cast<float>(font_->pixel_height());
   const float reach = static_cast<float>(axes_reach) * em;
-  const std::array<float, 2> middle = {picture_width - margin * em - reach, margin * em + reach};
+  const std::array<float, 2> middle = {image_width - margin * em - reach, margin * em + reach};
   line(middle, middle, 2.0f * reach, {backdrop[0], backdrop[1], backdrop[2], 0.45f});
   for (const AxisArm& arm : axes_seen(camera)) {
     const auto at = [&](double share) {
@@ -207,24 +207,24 @@ void OverlayPainter::axes(const Camera& camera, float picture_width) {
       return std::array{middle[0] + static_cast<float>(arm.right) * length,
                         middle[1] + static_cast<float>(arm.down) * length};
     };
-    line(middle, at(1.0), static_cast<float>(axis_width) * em, with_alpha(arm.colour, 1.0));
+    line(middle, at(1.0), static_cast<float>(axis_width) * em, with_alpha(arm.color, 1.0));
     const std::array<float, 2> letter = at(axis_letter_at);
     const std::string_view word(&arm.letter, 1);
     text(letter[0] - 0.5f * font_->width_of(word), letter[1] - 0.5f * em, word, bright);
   }
 }
 
-Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines,
+Status OverlayPainter::draw(const gl::Framebuffer& image, const std::vector<OverlayLine>& lines,
                             std::span<const Legend> legends, const Camera* camera, int text_height) {
   if (lines.empty() && !camera && std::ranges::all_of(legends, &Legend::empty)) return {};
   ASPIC_CHECK(
-      prepare_font(text_height > 0 ? std::clamp(text_height, 11, 256) : text_height_in(picture.height())));
+      prepare_font(text_height > 0 ? std::clamp(text_height, 11, 256) : text_height_in(image.height())));
   pending_.clear();
-  if (!lines.empty()) facts(lines, static_cast<float>(picture.width()));
-  auto bottom = static_cast<float>(picture.height());
+  if (!lines.empty()) facts(lines, static_cast<float>(image.width()));
+  auto bottom = static_cast<float>(image.height());
   for (const Legend& legend : legends)
-    if (!legend.empty()) bottom -= scale(legend, static_cast<float>(picture.width()), bottom);
-  if (camera) axes(*camera, static_cast<float>(picture.width()));
+    if (!legend.empty()) bottom -= scale(legend, static_cast<float>(image.width()), bottom);
+  if (camera) axes(*camera, static_cast<float>(image.width()));
 
   const std::uint64_t bytes = pending_.size() * sizeof(Vertex);
   if (vertices_.bytes() < bytes) {
@@ -235,7 +235,7 @@ Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<Ov
                                       {1, &vertices_, 4, sizeof(Vertex), 16},
                                       {2, &vertices_, 4, sizeof(Vertex), 32}};
   const gl::VertexArray array = gl::VertexArray::create(attributes);
-  picture.bind();
+  image.bind();
   array.bind();
   glUseProgram(program_.id());
   glyphs_.bind(UNIT_GLYPHS);

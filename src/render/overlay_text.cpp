@@ -85,7 +85,7 @@ std::string values_of(const MaterialSettings& m) {
                      short_number(m.damping_ratio));
 }
 
-/// A name may be as long as it likes; the panel must not cover the picture.
+/// A name may be as long as it likes; the panel must not cover the image.
 constexpr std::size_t most_of_author = 40, most_of_name = 16, most_of_a_kind = 2;
 
 void add_springs(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
@@ -191,7 +191,7 @@ void add_balls(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
     balls += static_cast<std::uint64_t>(launcher.count);
   if (balls == 0) return;
   const ContactSettings& contact = settings.contact;
-  // Without spin nothing acts across the line of centres.
+  // Without spin nothing acts across the line of centers.
   lines.push_back({"balls", fmt::format("{}   e {}   μ {}", balls, short_number(contact.ball_restitution),
                                         short_number(contact.spin ? contact.ball_friction : 0.0))});
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The text on a picture.
+// The text on an image.
 #include <vector>
 
 #include "aspic/scene.h"

@@ -24,7 +24,7 @@ struct Word {
 Vec3 point_at(const render_layout::Frame& frame, int column, int row, int side, double distance) {
   const glm::dmat4 projection(frame.projection);
   const double x = 2.0 * (column + 0.5) / side - 1.0, y = 2.0 * (row + 0.5) / side - 1.0;
-  // Of clip space: the distance itself, or 1 in an orthographic picture.
+  // Of clip space: the distance itself, or 1 in an orthographic image.
   const double w = projection[3][3] - projection[2][3] * distance;
   const glm::dvec4 in_view((x * w + projection[2][0] * distance - projection[3][0]) / projection[0][0],
                            (y * w + projection[2][1] * distance - projection[3][1]) / projection[1][1],
@@ -77,7 +77,7 @@ void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const D
   const DrawSettings& draw = view.draw;
   if (view.terrain) draw_terrain(model, state.step);
   if (draws_balls(draw) && buffers.balls().shows(state)) buffers.balls().draw(balls_, state);
-  if (section) section->draw(SectionUse::identities, model, buffers, *state.particles, view.colour);
+  if (section) section->draw(SectionUse::identities, model, buffers, *state.particles, view.color);
   if (!draw.solid && !draw.particles && !draws_springs(drawn_springs(view))) return;
   const float radius =
       static_cast<float>(draw.particles ? particle_radius(buffers.spacing())

@@ -51,7 +51,7 @@ class Picker {
   Picker(const Picker&) = delete;
   Picker& operator=(const Picker&) = delete;
 
-  /// Queues the image around a place of a picture whose block was `frame`. Particles are discs at least three
+  /// Queues the image around a place of an image whose block was `frame`. Particles are discs at least three
   /// pixels in radius; a body that is drawn solid is its skin, each point of it representing the nearest
   /// particle there, and hides what lies behind it, as terrain and balls do; goal nets and glass do not. What
   /// a cut takes away is not there; the section it leaves, if `section` is not null, is as the skin. Changes

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "model/terrain.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "render/light_maps.h"
 #include "render/section.h"
 
@@ -98,7 +98,7 @@ void RenderPrograms::start(const Model& model, const ViewSettings& view, bool sh
         rods);
   begin(std::ranges::any_of(model.bodies, [](const Body& b) { return !b.skin.empty(); }), mesh_skin,
         mesh_normals);
-  begin(has_scale(view.colour), quantity);
+  begin(has_scale(view.color), quantity);
   begin(has_balls, balls_turn);
   begin(has_balls && draws_balls(view.draw), balls);
   begin(flesh, thickness, jelly_far, jelly, halve[1]);

@@ -1,5 +1,5 @@
 #pragma once
-// Every program of the picture. Few of them are needed for one, so each is compiled when it is first used.
+// Every program of the image. Few of them are needed for one, so each is compiled when it is first used.
 #include <array>
 #include <memory>
 #include <string>
@@ -67,7 +67,7 @@ struct RenderPrograms {
   /// Compiles nothing.
   static RenderPrograms create(gl::Context& context, const gl::ShaderLibrary& library);
 
-  /// Begins to compile, all at once, what pictures of a model need, as far as the view tells. What it
+  /// Begins to compile, all at once, what images of a model need, as far as the view tells. What it
   /// overlooks is compiled when it is used.
   void start(const Model& model, const ViewSettings& view, bool shadows) const;
 };

@@ -25,17 +25,17 @@ double fall_height(const Model& model) {
 }
 
 struct ScaleWords {
-  ViewColour colour;
+  ViewColor color;
   std::string_view title, unit;
   double unit_size;
 };
 constexpr ScaleWords scales[] = {
-    {ViewColour::strain, "strain of the springs", " %", 0.01},
-    {ViewColour::signed_strain, "strain: − shortened, + stretched", " %", 0.01},
-    {ViewColour::force, "force of the springs", " N", 1.0},
-    {ViewColour::energy, "energy of the springs", " J", 1.0},
-    {ViewColour::speed, "speed", " m/s", 1.0},
-    {ViewColour::actuation, "rest lengths: − shortened, + stretched", " %", 0.01}};
+    {ViewColor::strain, "strain of the springs", " %", 0.01},
+    {ViewColor::signed_strain, "strain: − shortened, + stretched", " %", 0.01},
+    {ViewColor::force, "force of the springs", " N", 1.0},
+    {ViewColor::energy, "energy of the springs", " J", 1.0},
+    {ViewColor::speed, "speed", " m/s", 1.0},
+    {ViewColor::actuation, "rest lengths: − shortened, + stretched", " %", 0.01}};
 
 Legend scale(const ScaleWords& words, const ViewSettings& view, const QuantityRange& range) {
   Legend legend;
@@ -45,11 +45,11 @@ Legend scale(const ScaleWords& words, const ViewSettings& view, const QuantityRa
     const double value = range[0] + 0.5 * static_cast<double>(i) * (range[1] - range[0]);
     legend.marks[i] = short_number(value / words.unit_size) + std::string(words.unit);
   }
-  if (follows_picture(view)) return legend;
-  // Values past an end take its colour.
+  if (follows_image(view)) return legend;
+  // Values past an end take its color.
   const std::size_t low = range[1] < range[0] ? 1 : 0, high = 1 - low;
   legend.marks[2 * high] = "≥ " + legend.marks[2 * high];
-  if (range[low] != 0.0 || has_sign(view.colour)) legend.marks[2 * low] = "≤ " + legend.marks[2 * low];
+  if (range[low] != 0.0 || has_sign(view.color)) legend.marks[2 * low] = "≤ " + legend.marks[2 * low];
   return legend;
 }
 
@@ -82,30 +82,30 @@ double round_up(double value) {
   return 10.0 * power;
 }
 
-QuantityRange default_range(const Model& model, ViewColour colour) {
-  if (colour == ViewColour::strain) return {0.0, 0.2};
-  if (colour == ViewColour::signed_strain) return {-0.1, 0.1};
-  if (colour == ViewColour::actuation) return actuation_range(model);
-  double largest = colour == ViewColour::energy ? 1e-3 : 1.0;
-  if (colour == ViewColour::speed) {
+QuantityRange default_range(const Model& model, ViewColor color) {
+  if (color == ViewColor::strain) return {0.0, 0.2};
+  if (color == ViewColor::signed_strain) return {-0.1, 0.1};
+  if (color == ViewColor::actuation) return actuation_range(model);
+  double largest = color == ViewColor::energy ? 1e-3 : 1.0;
+  if (color == ViewColor::speed) {
     largest = std::max(largest, std::sqrt(2.0 * length(model.simulation.gravity) * fall_height(model)));
     for (const Vec3& v : model.initial_velocity) largest = std::max(largest, length(v));
     for (const Ball& ball : model.balls) largest = std::max(largest, length(ball.initial_velocity));
   }
   for (const SpringClass& c : model.spring_classes) {
     const double stretch = 0.1 * c.rest_length;
-    if (colour == ViewColour::force) largest = std::max(largest, c.stiffness * stretch);
-    if (colour == ViewColour::energy) largest = std::max(largest, 0.5 * c.stiffness * stretch * stretch);
+    if (color == ViewColor::force) largest = std::max(largest, c.stiffness * stretch);
+    if (color == ViewColor::energy) largest = std::max(largest, 0.5 * c.stiffness * stretch * stretch);
   }
   return {0.0, round_up(largest)};
 }
 
-bool follows_picture(const ViewSettings& view) {
-  return has_scale(view.colour) && view.scale.range != ScaleRange::fixed;
+bool follows_image(const ViewSettings& view) {
+  return has_scale(view.color) && view.scale.range != ScaleRange::fixed;
 }
 
 bool share_scale(const ViewSettings& a, const ViewSettings& b) {
-  return has_scale(a.colour) && a.colour == b.colour && a.scale == b.scale;
+  return has_scale(a.color) && a.color == b.color && a.scale == b.scale;
 }
 
 QuantityRange widest(const QuantityRange& a, const QuantityRange& b) {
@@ -113,8 +113,8 @@ QuantityRange widest(const QuantityRange& a, const QuantityRange& b) {
 }
 
 QuantityRange range_for(const Model& model, const ViewSettings& view, const QuantityRange& seen) {
-  const QuantityRange of_model = default_range(model, view.colour);
-  if (!has_scale(view.colour)) return of_model;
+  const QuantityRange of_model = default_range(model, view.color);
+  if (!has_scale(view.color)) return of_model;
   if (view.scale.range == ScaleRange::fixed)
     return {view.scale.from.value_or(of_model[0]), view.scale.to.value_or(of_model[1])};
   auto [low, high] = seen;
@@ -132,12 +132,12 @@ QuantityRange range_for(const Model& model, const ViewSettings& view, const Quan
 }
 
 Legend legend_for(const ViewSettings& view, const QuantityRange& range) {
-  const auto words = std::ranges::find(scales, view.colour, &ScaleWords::colour);
+  const auto words = std::ranges::find(scales, view.color, &ScaleWords::color);
   if (words != std::end(scales)) return scale(*words, view, range);
   const DrawSettings draw = drawn_springs(view);
   Legend legend;
   for (const SpringType type : {SpringType::structural, SpringType::shear, SpringType::bending})
-    if (draws(draw, type)) legend.entries.push_back({spring_colour(type), std::string(name_of(type))});
+    if (draws(draw, type)) legend.entries.push_back({spring_color(type), std::string(name_of(type))});
   if (!legend.entries.empty()) legend.title = "springs";
   return legend;
 }

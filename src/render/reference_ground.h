@@ -1,5 +1,5 @@
 #pragma once
-// A level ground that pictures show and physics knows nothing of.
+// A level ground that images show and physics knows nothing of.
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/context.h"

@@ -16,9 +16,9 @@
 
 namespace aspic {
 namespace {
-/// Whether a colour shows what a particle's springs do.
-bool shows_springs(ViewColour colour) {
-  return has_scale(colour) && colour != ViewColour::speed;
+/// Whether a color shows what a particle's springs do.
+bool shows_springs(ViewColor color) {
+  return has_scale(color) && color != ViewColor::speed;
 }
 }  // namespace
 
@@ -43,7 +43,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   ASPIC_TRY(parts->terrain, TerrainPainter::create(context));
   ASPIC_TRY(parts->reference_ground, ReferenceGround::create(context, parts->programs.reference_ground));
   ASPIC_TRY(parts->lights, LightMaps::create(context));
-  ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
+  ASPIC_TRY(parts->color_map, gl::Texture::create(context, "color map", {.width = 256, .height = 1}));
   ASPIC_TRY(parts->frame,
             gl::Buffer::create(context, "frame", sizeof(render_layout::Frame), gl::BufferKind::uniform));
   parts->nothing = gl::VertexArray::without_inputs(context);
@@ -71,11 +71,11 @@ Status Renderer::set_model(const Model& model) {
 
 Status Renderer::Parts::prepare_targets(int width, int height, int wanted_samples) {
   const int count = wanted_samples > 0 ? std::min(wanted_samples, samples) : samples;
-  if (targets && targets->picture.colour.width() == width && targets->picture.colour.height() == height &&
-      targets->samples.colour.settings().samples == count)
+  if (targets && targets->image.color.width() == width && targets->image.color.height() == height &&
+      targets->samples.color.settings().samples == count)
     return {};
   targets.reset();
-  ASPIC_TRY(targets, PictureTargets::create(*context, width, height, count));
+  ASPIC_TRY(targets, ImageTargets::create(*context, width, height, count));
   return {};
 }
 
@@ -103,7 +103,7 @@ void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
 }
 
-void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
+void Renderer::Parts::prepare_light(const DeviceState& state, const ImageOptions& options) {
   const ViewSettings& view = options.view;
   // Where other states come from, only the device knows whether they are the same.
   std::optional<LightLook> look;
@@ -112,10 +112,10 @@ void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptio
   const bool held = lights.hold(look);
   if (!held) {
     buffers->compute_light_boxes(programs, state);
-    mark(PicturePass::bounds);
+    mark(FramePass::bounds);
   }
   if (view.draw.solid) buffers->compute_skin(programs, *state.particles);
-  mark(PicturePass::skin);
+  mark(FramePass::skin);
   if (held) {
     lights.bind(*buffers);
     return;
@@ -124,31 +124,30 @@ void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptio
     lights.render(programs, *buffers, state, view);
   else
     lights.leave_out(*buffers);
-  mark(PicturePass::light_maps);
+  mark(FramePass::light_maps);
 }
 
-/// After compute_quantity() of a view that follows the picture.
+/// After compute_quantity() of a view that follows the image.
 QuantityRange Renderer::Parts::measured_range(const ViewSettings& view) const {
   const bool springs = draws_springs(drawn_springs(view)) || (view.draw.solid && has(SurfaceStyle::cords));
-  return range_for(*model, view, buffers->extremes(springs && shows_springs(view.colour)));
+  return range_for(*model, view, buffers->extremes(springs && shows_springs(view.color)));
 }
 
-void Renderer::Parts::prepare_scale(const DeviceState& state, const PictureOptions& options) {
+void Renderer::Parts::prepare_scale(const DeviceState& state, const ImageOptions& options) {
   const ViewSettings& view = options.view;
   const ScaleMap wanted = chosen_map(view);
-  if (std::exchange(uploaded_map, wanted) != wanted) colour_map.upload(colour_map_texels(wanted));
-  if (!has_scale(view.colour)) return;
+  if (std::exchange(uploaded_map, wanted) != wanted) color_map.upload(color_map_texels(wanted));
+  if (!has_scale(view.color)) return;
   buffers->compute_quantity(programs, state);
-  if (!follows_picture(view) || options.range) return;
+  if (!follows_image(view) || options.range) return;
   range = measured_range(view);
   drawn_frame.quantity_range = quantity_scale(range);
   bind_frame(drawn_frame);
 }
 
-/// Everything is ready for the steps of a picture, and the picture before is still there if that is not to
+/// Everything is ready for the steps of an image, and the image before is still there if that is not to
 /// be.
-Status Renderer::Parts::start(int width, int height, const DeviceState& state,
-                              const PictureOptions& options) {
+Status Renderer::Parts::start(int width, int height, const DeviceState& state, const ImageOptions& options) {
   assert(model && state.particles && state.particles->context() == context);
   assert(state.particles->bytes() >= sizeof(layout::Particle) * model->particle_count());
   const ViewSettings& view = options.view;
@@ -158,8 +157,8 @@ Status Renderer::Parts::start(int width, int height, const DeviceState& state,
   if (view.cut.on()) ASPIC_CHECK(prepare_section());
   if (has(SurfaceStyle::cords) || draws_springs(drawn_springs(view)))
     ASPIC_CHECK(buffers->prepare_lines(*context, *model));
-  if (shows_springs(view.colour)) ASPIC_CHECK(buffers->prepare_incident(*context, *model, state));
-  buffers->set_rest_lengths(*model, state.step, options.channels, view.colour == ViewColour::actuation);
+  if (shows_springs(view.color)) ASPIC_CHECK(buffers->prepare_incident(*context, *model, state));
+  buffers->set_rest_lengths(*model, state.step, options.channels, view.color == ViewColor::actuation);
   buffers->use_coarse_skin(options.coarse_skin && !view.cut.on());
   const Camera camera(view.camera, width, height);
   if (!options.ball_turns.empty()) buffers->set_ball_turns(options.ball_turns, state.step);
@@ -180,7 +179,7 @@ Status Renderer::Parts::start(int width, int height, const DeviceState& state,
   return {};
 }
 
-/// The picture is complete.
+/// The image is complete.
 Status Renderer::Parts::finish() {
   if (profiler) profiler->end();
   const Status written = drawing->written ? programs.source->take_refused() : drawing->written;
@@ -190,14 +189,14 @@ Status Renderer::Parts::finish() {
   return written;
 }
 
-/// Gives up the picture that is being drawn.
+/// Gives up the image that is being drawn.
 void Renderer::Parts::abandon() {
   drawing.reset();
   if (earlier) targets = std::move(earlier);
   earlier.reset();
 }
 
-Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
+Status Renderer::draw(int width, int height, const DeviceState& state, const ImageOptions& options) {
   Parts& p = *parts_;
   const gl::Current here(*p.context);
   ASPIC_CHECK(here.status());
@@ -210,7 +209,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   return p.finish();
 }
 
-Status Renderer::begin(int width, int height, const DeviceState& state, const PictureOptions& options) {
+Status Renderer::begin(int width, int height, const DeviceState& state, const ImageOptions& options) {
   Parts& p = *parts_;
   const gl::Current here(*p.context);
   ASPIC_CHECK(here.status());
@@ -262,9 +261,9 @@ Result<QuantityRange> Renderer::range_of(const DeviceState& state, const ViewSet
   const gl::Current here(*p.context);
   ASPIC_CHECK(here.status());
   const QuantityRange alone = range_for(*p.model, view, {});
-  if (!follows_picture(view)) return alone;
-  if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
-  p.buffers->set_rest_lengths(*p.model, state.step, channels, view.colour == ViewColour::actuation);
+  if (!follows_image(view)) return alone;
+  if (shows_springs(view.color)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
+  p.buffers->set_rest_lengths(*p.model, state.step, channels, view.color == ViewColor::actuation);
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
   const FrameContent content = {view, alone, p.has(SurfaceStyle::flesh), false, state.step, 0.0f};
   p.bind_frame(frame_block(*p.model, Camera(view.camera, 1, 1), 1, 1, content));
@@ -277,8 +276,8 @@ QuantityRange Renderer::range() const {
   return parts_->range;
 }
 
-const gl::Framebuffer& Renderer::picture() const {
-  return parts_->last().picture.framebuffer;
+const gl::Framebuffer& Renderer::image() const {
+  return parts_->last().image.framebuffer;
 }
 
 void Renderer::present(std::uint32_t framebuffer, int width, int height, int left, int bottom) const {
@@ -286,20 +285,20 @@ void Renderer::present(std::uint32_t framebuffer, int width, int height, int lef
   if (!here.status()) return;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(left, bottom, width, height);
-  parts_->last().picture.colour.bind(UNIT_FRAME);
+  parts_->last().image.color.bind(UNIT_FRAME);
   parts_->fill(parts_->programs.present);
   glUseProgram(0);
   glBindVertexArray(0);
 }
 
-void Renderer::present_ghost(const Colour& background, std::uint32_t framebuffer, int width, int height,
+void Renderer::present_ghost(const Color& background, std::uint32_t framebuffer, int width, int height,
                              int left, int bottom) const {
   const gl::Current here(*parts_->context);
   if (!here.status()) return;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(left, bottom, width, height);
-  parts_->last().picture.colour.bind(UNIT_FRAME);
-  parts_->programs.ghost.set(LOCATION_BASE_COLOUR, with_alpha(background, 1.0));
+  parts_->last().image.color.bind(UNIT_FRAME);
+  parts_->programs.ghost.set(LOCATION_BASE_COLOR, with_alpha(background, 1.0));
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   parts_->fill(parts_->programs.ghost);
@@ -317,7 +316,7 @@ Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_
   ASPIC_CHECK(p.prepare_highlight());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(left, bottom, width, height);
-  // Marks end where the picture does.
+  // Marks end where the image does.
   glEnable(GL_SCISSOR_TEST);
   glScissor(left, bottom, width, height);
   render_layout::Frame frame = p.drawn_frame;
@@ -338,7 +337,7 @@ void Renderer::set_profiling(bool on) {
   p.profiler.reset();
   if (on)
     p.profiler = std::make_unique<gl::PassProfiler>(
-        *p.context, picture_pass_names(), p.policy ? gl::PassStamps::waiting : gl::PassStamps::queued);
+        *p.context, frame_pass_names(), p.policy ? gl::PassStamps::waiting : gl::PassStamps::queued);
 }
 
 std::vector<gl::PassTime> Renderer::pass_times() {

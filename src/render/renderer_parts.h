@@ -11,10 +11,10 @@
 
 #include "render/backdrop.h"
 #include "render/body_painter.h"
+#include "render/frame_passes.h"
 #include "render/frame_policy.h"
 #include "render/light_maps.h"
 #include "render/model_buffers.h"
-#include "render/picture_passes.h"
 #include "render/programs.h"
 #include "render/reference_ground.h"
 #include "render/renderer.h"
@@ -23,25 +23,25 @@
 
 namespace aspic {
 
-/// A picture that is being drawn.
+/// An image that is being drawn.
 struct Drawing {
   DeviceState state;
-  PictureOptions options;
+  ImageOptions options;
   Camera camera;
   std::vector<Terrain> terrain;     ///< where it is
-  std::vector<gl::PixelBox> boxes;  ///< what is drawn, of a picture that began with the backdrop
+  std::vector<gl::PixelBox> boxes;  ///< what is drawn, of an image that began with the backdrop
   Status written;                   ///< of what may fail on the way
   std::size_t step = 0;             ///< that comes next, of Renderer::Parts::steps()
   bool kept = false;                ///< it began with the backdrop
 };
 
 struct Renderer::Parts {
-  /// One part of drawing a picture.
+  /// One part of drawing an image.
   struct Step {
-    std::optional<PicturePass> pass;  ///< that it is counted to; absent: it tells of several itself
+    std::optional<FramePass> pass;  ///< that it is counted to; absent: it tells of several itself
     void (*draw)(Parts& parts, Drawing& drawing);
   };
-  /// In their order; picture_steps.cpp.
+  /// In their order; frame_steps.cpp.
   static std::span<const Step> steps();
 
   Parts();
@@ -53,14 +53,14 @@ struct Renderer::Parts {
   TerrainPainter terrain;
   ReferenceGround reference_ground;
   LightMaps lights;
-  gl::Texture colour_map;
-  ScaleMap uploaded_map = ScaleMap::automatic;  // that of colour_map; automatic: none yet
+  gl::Texture color_map;
+  ScaleMap uploaded_map = ScaleMap::automatic;  // that of color_map; automatic: none yet
   QuantityRange range = {0.0, 1.0};
   gl::Buffer frame;
   gl::VertexArray nothing;
   int samples = 4;
-  std::optional<PictureTargets> targets;  // of the picture that is drawn, or was last
-  std::optional<PictureTargets> earlier;  // of the one before, while another is drawn in parts
+  std::optional<ImageTargets> targets;  // of the image that is drawn, or was last
+  std::optional<ImageTargets> earlier;  // of the one before, while another is drawn in parts
   std::optional<Drawing> drawing;
   const Model* model = nullptr;
   std::optional<ModelBuffers> buffers;
@@ -72,7 +72,7 @@ struct Renderer::Parts {
   std::unique_ptr<FramePolicy> policy;  // null: hardware
   class Surroundings;
   std::unique_ptr<Surroundings> surroundings;  // where there is a policy
-  // Of the picture last drawn, for what is asked about it afterwards.
+  // Of the image last drawn, for what is asked about it afterwards.
   std::optional<DeviceState> drawn_state;
   render_layout::Frame drawn_frame = {};
   ViewSettings drawn_view;
@@ -83,14 +83,14 @@ struct Renderer::Parts {
   std::uint64_t picks = 0;
   std::unique_ptr<gl::PassProfiler> profiler;
 
-  Status start(int width, int height, const DeviceState& state, const PictureOptions& options);
+  Status start(int width, int height, const DeviceState& state, const ImageOptions& options);
   Status finish();
   void abandon();
   void ready_to_draw() const;
   void resume();
   void leave() const;
-  /// The images of the picture last drawn. Legal once there is one.
-  const PictureTargets& last() const {
+  /// The images of the image last drawn. Legal once there is one.
+  const ImageTargets& last() const {
     assert(earlier || targets);
     return earlier ? *earlier : *targets;
   }
@@ -99,7 +99,7 @@ struct Renderer::Parts {
   Status prepare_section();
   Status draw_arrows(const ViewSettings& view, const ArrowSet& set);
   /// This pass is over.
-  void mark(PicturePass pass) const {
+  void mark(FramePass pass) const {
     if (profiler) profiler->mark(static_cast<std::size_t>(pass));
   }
   void bind_frame(const render_layout::Frame& block);
@@ -107,17 +107,17 @@ struct Renderer::Parts {
   /// Whether what is in the state is known here: where other states are, only the device knows.
   bool knows(const DeviceState& state) const;
   void prepare_surroundings(Drawing& drawing);
-  void prepare_light(const DeviceState& state, const PictureOptions& options);
-  void prepare_scale(const DeviceState& state, const PictureOptions& options);
+  void prepare_light(const DeviceState& state, const ImageOptions& options);
+  void prepare_scale(const DeviceState& state, const ImageOptions& options);
   QuantityRange measured_range(const ViewSettings& view) const;
   BodyPainter bodies(const Drawing& d) const {
     const ViewSettings& view = d.options.view;
     return {*model,        programs, *buffers, *targets,
-            colour_map,    d.state,  view,     view.cut.on() ? section.get() : nullptr,
+            color_map,     d.state,  view,     view.cut.on() ? section.get() : nullptr,
             d.options.tint};
   }
   bool draws_flesh(const Drawing& d) const { return d.options.view.draw.solid && has(SurfaceStyle::flesh); }
-  /// The complete picture by one program.
+  /// The complete image by one program.
   void fill(const gl::Program& program) const {
     nothing.bind();
     glUseProgram(program.id());

@@ -8,10 +8,10 @@ namespace {
 
 /// A finer share is taken up only with room to spare, so that it is not left again at once.
 constexpr double room = 0.85;
-/// Pictures after which a share's time is forgotten: what was slow once, as shaders were compiled or the
+/// Images after which a share's time is forgotten: what was slow once, as shaders were compiled or the
 /// machine was busy, is tried again where the others leave hope.
 constexpr int oldest = 60;
-/// Pictures before a finer share is taken up again.
+/// Images before a finer share is taken up again.
 constexpr int patience = 200;
 
 double pixels(std::size_t i) {
@@ -29,7 +29,7 @@ void Resolution::took(double share, double seconds, double time) {
   }
   ages_[at] = 0;
   if (std::optional<double>& known = times_[at]) {
-    // One slow picture among many may have been the machine's fault. If it was not, the others are slower
+    // One slow image among many may have been the machine's fault. If it was not, the others are slower
     // too.
     const double ratio = 0.6 + 0.4 * std::min(seconds / *known, 2.0);
     for (auto& of_share : times_) {
@@ -55,7 +55,7 @@ void Resolution::reset(bool large) {
   slow_ = patience_ = 0;
 }
 
-/// Time of a picture at shares[i]; at least one share is known.
+/// Time of an image at shares[i]; at least one share is known.
 double Resolution::guess(std::size_t i) const {
   if (times_[i]) return *times_[i];
   std::optional<std::size_t> finest, next;

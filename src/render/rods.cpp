@@ -28,12 +28,12 @@ void add_tube(Mesh& mesh, const Vec3& from, const Vec3& to, double radius) {
   }
 }
 
-void add_knob(Mesh& mesh, const Vec3& centre, double radius) {
+void add_knob(Mesh& mesh, const Vec3& center, double radius) {
   const Mesh sphere = sphere_mesh(sectors / 2, sectors);
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const std::array<float, 4>& p : sphere.vertices) {
     const Vec3 n = {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-    mesh.vertices.push_back(four(centre + radius * n, 1.0));
+    mesh.vertices.push_back(four(center + radius * n, 1.0));
     mesh.normals.push_back(four(n, 0.0));
   }
   for (const std::uint32_t i : sphere.indices) mesh.indices.push_back(first + i);

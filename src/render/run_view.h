@@ -8,7 +8,7 @@ namespace aspic {
 
 /// Size and options of a frame.
 struct FrameRequest {
-  PictureSize size;
+  ImageSize size;
   bool text = true;  ///< parameters, time and scales are written on it
 };
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gpu/pass.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "render/light_maps.h"
 
 namespace aspic {
@@ -71,7 +71,7 @@ SectionPainter::SectionPainter(const std::shared_ptr<RenderProgram::Source>& sou
   };
   crossed_ = RenderProgram(source, {.compute = "render/section.comp"});
   crossed_listed_ = RenderProgram(source, {.compute = "render/section.comp"}, {{"LISTED_CELLS", "1"}});
-  colour_ = drawing("render/section.frag");
+  color_ = drawing("render/section.frag");
   thickness_ = drawing("render/thickness.frag");
   identities_ = drawing("render/pick_section.frag", {{"PICKED", "1"}});
 }
@@ -150,9 +150,9 @@ void SectionPainter::draw_body(const RenderProgram& program, const Model& model,
 }
 
 void SectionPainter::draw(SectionUse use, const Model& model, const ModelBuffers& buffers,
-                          const gl::Buffer& particles, ViewColour colour) const {
+                          const gl::Buffer& particles, ViewColor color) const {
   if (cells_ == 0) return;
-  const RenderProgram& program = use == SectionUse::colour      ? colour_
+  const RenderProgram& program = use == SectionUse::color       ? color_
                                  : use == SectionUse::thickness ? thickness_
                                                                 : identities_;
   const gl::VertexArray array =
@@ -160,9 +160,9 @@ void SectionPainter::draw(SectionUse use, const Model& model, const ModelBuffers
   array.bind();
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, tetrahedra_.id());
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    if (use == SectionUse::colour)
-      program.set(LOCATION_BASE_COLOUR,
-                  with_alpha(colour == ViewColour::material ? body_colour(i) : neutral_body_colour(), 1.0));
+    if (use == SectionUse::color)
+      program.set(LOCATION_BASE_COLOR,
+                  with_alpha(color == ViewColor::material ? body_color(i) : neutral_body_color(), 1.0));
     draw_body(program, model, i, particles);
   }
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);

@@ -16,7 +16,7 @@
 namespace aspic {
 
 /// What a section is drawn into.
-enum class SectionUse { colour, thickness, identities };
+enum class SectionUse { color, thickness, identities };
 
 /// What a view draws of springs: the types that `draw` names, or where a cut shows springs and it names none,
 /// structural and shear ones.
@@ -47,9 +47,9 @@ class SectionPainter {
   /// no device memory.
   Status prepare(const Model& model);
   /// Draws the sections of all bodies with the program of that use, in the state of OpenGL as it is; the
-  /// frame block must be bound. `colour` of bodies: their own, as skins have it, or all neutral.
+  /// frame block must be bound. `color` of bodies: their own, as skins have it, or all neutral.
   void draw(SectionUse use, const Model& model, const ModelBuffers& buffers, const gl::Buffer& particles,
-            ViewColour colour) const;
+            ViewColor color) const;
 
  private:
   void draw_body(const RenderProgram& program, const Model& model, std::size_t body,
@@ -59,7 +59,7 @@ class SectionPainter {
   Status list_cells(const Model& model);
 
   gl::Context* context_;
-  RenderProgram crossed_, crossed_listed_, colour_, thickness_, identities_;
+  RenderProgram crossed_, crossed_listed_, color_, thickness_, identities_;
   // By body: its particles, and its lattice if that is listed.
   std::vector<std::pair<std::uint32_t, std::optional<Lattice>>> lattices_;
   std::vector<gl::Buffer> corners_;  // by body, of its full cells

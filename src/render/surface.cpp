@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "render/software_rasteriser.h"
+#include "render/software_rasterizer.h"
 
 namespace aspic {
 namespace {
@@ -80,7 +80,7 @@ class Vertices {
   std::vector<std::uint32_t> of_group_;         // by particle: its vertex in the group under way
   std::vector<std::uint32_t> latest_, before_;  // the newest vertex of a particle; the one before a vertex
   std::vector<std::uint32_t> particle_;         // by vertex
-  std::vector<std::vector<std::array<std::uint32_t, 2>>> own_;  // by vertex: next and previous neighbours
+  std::vector<std::vector<std::array<std::uint32_t, 2>>> own_;  // by vertex: next and previous neighbors
 };
 
 Surface::Part append(const Triangles& made, Surface& surface) {

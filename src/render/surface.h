@@ -8,7 +8,7 @@
 
 namespace aspic {
 
-/// Triangles over global particle indices. They turn anticlockwise seen from outside the undeformed
+/// Triangles over global particle indices. They turn counterclockwise seen from outside the undeformed
 /// body, or from the side that an open surface turns to. Groups of normals that meet have separate
 /// vertices there, so that an edge can be sharp.
 struct Surface {
@@ -24,7 +24,7 @@ struct Surface {
 
   /// The fans: vertex i of the skin is particle fan_vertex[i]; at it meet the quads
   /// fan_start[i] … fan_start[i + 1] − 1, those of its own group before fan_own[i], of each of which `fan`
-  /// holds the vertex's next and previous neighbour (two words: particles).
+  /// holds the vertex's next and previous neighbor (two words: particles).
   std::vector<std::uint32_t> fan_vertex, fan_start, fan_own, fan;
 
   /// The vertices of meshes, which come after those of fans: the particles at the corners of the cell of

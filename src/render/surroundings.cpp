@@ -1,4 +1,4 @@
-// The surroundings of the bodies in a picture, and which parts of them need not be drawn again.
+// The surroundings of the bodies in an image, and which parts of them need not be drawn again.
 #include "render/surroundings.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 /// A thing's pixels may lie this far outside of it: smoothing, and images of half the size [pixels].
 constexpr double edge_margin = 4.0;
 
-/// How far from particles something may be drawn [m]: their own pictures, and meshes, which reach half a
+/// How far from particles something may be drawn [m]: their own images, and meshes, which reach half a
 /// cell, stretched, out of the cells that they hang on.
 double drawn_around(const Model& model, double spacing) {
   const bool mesh = std::ranges::any_of(model.bodies, [](const Body& body) { return !body.skin.empty(); });
@@ -28,7 +28,7 @@ void Renderer::Parts::draw_ground(const Drawing& d, bool shadows) const {
   terrain.draw_solid(programs, d.terrain, d.options.view.camera, d.camera, shadows, *targets);
 }
 
-/// The picture begins with what is kept, if it may.
+/// The image begins with what is kept, if it may.
 void Renderer::Parts::prepare_surroundings(Drawing& d) {
   glEnable(GL_FRAMEBUFFER_SRGB);
   d.kept = surroundings && surroundings->prepare(*this, d);
@@ -47,7 +47,7 @@ void Renderer::Parts::Surroundings::reset(const Model& another) {
 
 bool Renderer::Parts::Surroundings::prepare(Parts& p, const Drawing& d) {
   const bool stays = backdrop_.stays(
-      {p.drawn_frame, d.terrain, d.options.background, p.targets->samples.colour.settings().samples});
+      {p.drawn_frame, d.terrain, d.options.background, p.targets->samples.color.settings().samples});
   if (!stays && !d.options.steady) return false;
   if (backdrop_.drawn()) return true;
   if (!backdrop_.begin(*p.context, *p.targets)) return false;
@@ -67,13 +67,13 @@ std::vector<gl::PixelBox> Renderer::Parts::Surroundings::around_flesh(const Part
   MovingThings things;
   things.particles = p.uploaded_particles;
   things.particle_radius = drawn_around(*p.model, p.buffers->spacing());
-  const double shift = 0.22 * reach / static_cast<double>(p.drawn_frame.eye.w);  // in heights of the picture
-  things.margin = edge_margin + shift * static_cast<double>(p.targets->picture.colour.height());
+  const double shift = 0.22 * reach / static_cast<double>(p.drawn_frame.eye.w);  // in heights of the image
+  things.margin = edge_margin + shift * static_cast<double>(p.targets->image.color.height());
   return moving_part(p.drawn_frame, things);
 }
 
 std::vector<gl::PixelBox> Renderer::Parts::Surroundings::changing(const Parts& p, const Drawing& d) const {
-  const PictureOptions& options = d.options;
+  const ImageOptions& options = d.options;
   MovingThings things;
   if (!p.knows(d.state) || !options.arrows.arrows.empty() || options.view.cut.on() || options.view.ground ||
       !p.terrain.add_changing(d.terrain, options.view.camera, d.camera, options.shadows, things))

@@ -1,5 +1,5 @@
 #pragma once
-// What of a picture stays as it is while bodies move, for software rasterisers: for a renderer's own sources
+// What of an image stays as it is while bodies move, for software rasterizers: for a renderer's own sources
 // alone.
 #include <vector>
 
@@ -14,14 +14,14 @@ class Renderer::Parts::Surroundings {
  public:
   /// There is another model.
   void reset(const Model& another);
-  /// Whether the picture may begin with the backdrop, which is drawn if need be.
+  /// Whether the image may begin with the backdrop, which is drawn if need be.
   bool prepare(Parts& parts, const Drawing& drawing);
-  /// Puts the backdrop's samples, where the picture differs from it, or its picture into the targets.
-  void put_samples(PictureTargets& to, const std::vector<gl::PixelBox>& boxes) const {
+  /// Puts the backdrop's samples, where the image differs from it, or its image into the targets.
+  void put_samples(ImageTargets& to, const std::vector<gl::PixelBox>& boxes) const {
     backdrop_.put_samples(to, boxes);
   }
-  void put_picture(PictureTargets& to) const { backdrop_.put_picture(to); }
-  /// Where the picture differs from its backdrop.
+  void put_image(ImageTargets& to) const { backdrop_.put_image(to); }
+  /// Where the image differs from its backdrop.
   std::vector<gl::PixelBox> changing(const Parts& parts, const Drawing& drawing) const;
   /// Where translucent bodies are, and as far around them as they bend sight (shaders/render/jelly.frag).
   std::vector<gl::PixelBox> around_flesh(const Parts& parts, const DeviceState& state) const;

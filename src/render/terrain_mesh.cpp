@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "model/terrain.h"
-#include "render/colour_map.h"
+#include "render/color_map.h"
 
 namespace aspic {
 namespace {

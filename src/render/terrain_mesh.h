@@ -20,8 +20,8 @@ Mesh sphere_mesh(int rings, int sectors);
 Mesh terrain_mesh(const Terrain& terrain, int rings, int sectors);
 
 /// A floor of square tiles, 4 × 4 of them, as size² texels RGBA with 8 bits each, sRGB encoded; the edges
-/// match when it is repeated. Each tile has its own shade of warm grey, a grain of five octaves of value
-/// noise and a bevelled joint. `size` is a power of two ≥ 64.
+/// match when it is repeated. Each tile has its own shade of warm gray, a grain of five octaves of value
+/// noise and a beveled joint. `size` is a power of two ≥ 64.
 std::vector<std::byte> ground_texels(int size);
 
 }  // namespace aspic

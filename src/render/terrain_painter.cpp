@@ -64,14 +64,14 @@ void TerrainPainter::draw_meshes(const RenderProgram& program, const std::vector
 
 void TerrainPainter::draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                 const CameraSettings& camera, const Camera& lens, bool shadows,
-                                const PictureTargets& targets) const {
+                                const ImageTargets& targets) const {
   draw_solid_meshes(programs, terrain);
   draw_planes(programs, terrain, camera, lens, shadows ? Planes::shadowed : Planes::solid, &targets);
 }
 
 void TerrainPainter::draw_shadows(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                   const CameraSettings& camera, const Camera& lens,
-                                  const PictureTargets& targets) const {
+                                  const ImageTargets& targets) const {
   draw_solid_meshes(programs, terrain);
   draw_planes(programs, terrain, camera, lens, Planes::shadows_alone, &targets);
 }
@@ -118,7 +118,7 @@ bool TerrainPainter::add_changing(const std::vector<Terrain>& terrain, const Cam
 
 void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                  const CameraSettings& camera, const Camera& lens, Planes planes,
-                                 const PictureTargets* targets) const {
+                                 const ImageTargets* targets) const {
   const bool from_behind = planes == Planes::from_behind;
   for (const Terrain& t : terrain) {
     const TerrainShapeRow& row = terrain_row(t.shape);
@@ -156,7 +156,7 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
 }
 
 void TerrainPainter::draw_shadowed(const RenderPrograms& programs, const gl::Program& shadowed,
-                                   const PictureTargets& targets) const {
+                                   const ImageTargets& targets) const {
   // Shadows cost several times the plain ground, and cover little of it.
   targets.shade.framebuffer.bind();
   glClearColor(0, 0, 0, 0);
@@ -173,7 +173,7 @@ void TerrainPainter::draw_shadowed(const RenderPrograms& programs, const gl::Pro
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   targets.samples.framebuffer.bind();
-  targets.shade.colour.bind(UNIT_SHADE);
+  targets.shade.color.bind(UNIT_SHADE);
   glUseProgram(shadowed.id());
   glEnable(GL_POLYGON_OFFSET_FILL);
   for (int light = 0; light < LIGHTS; ++light) {

@@ -28,10 +28,10 @@ class TerrainPainter {
   /// with the shadows that light maps hold, or without.
   void draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                   const CameraSettings& camera, const Camera& lens, bool shadows,
-                  const PictureTargets& targets) const;
+                  const ImageTargets& targets) const;
   /// Over the same without shadows: all of it that may have some.
   void draw_shadows(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
-                    const CameraSettings& camera, const Camera& lens, const PictureTargets& targets) const;
+                    const CameraSettings& camera, const Camera& lens, const ImageTargets& targets) const;
   /// Tells what of the terrain a state may change: surfaces, glass alone without `shadows`, and the planes
   /// that have shadows then. Whether that is all: planes seen from behind lie over everything.
   bool add_changing(const std::vector<Terrain>& terrain, const CameraSettings& camera, const Camera& lens,
@@ -47,10 +47,10 @@ class TerrainPainter {
   enum class Planes { solid, shadowed, shadows_alone, from_behind };
   void draw_planes(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                    const CameraSettings& camera, const Camera& lens, Planes planes,
-                   const PictureTargets* targets) const;
+                   const ImageTargets* targets) const;
   /// The squares of a plane that shadows fall on. `shadowed` is one of the two programs for it, prepared.
   void draw_shadowed(const RenderPrograms& programs, const gl::Program& shadowed,
-                     const PictureTargets& targets) const;
+                     const ImageTargets& targets) const;
   void draw_solid_meshes(const RenderPrograms& programs, const std::vector<Terrain>& terrain) const;
   void draw_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain, bool far_side) const;
   /// The bounded surfaces of solid terrain, or of glass.

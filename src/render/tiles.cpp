@@ -9,11 +9,11 @@
 
 namespace aspic {
 
-Colour run_tint(std::size_t run) {
-  Colour colour;
+Color run_tint(std::size_t run) {
+  Color color;
   for (std::size_t c = 0; c < 3; ++c)
-    colour[c] = static_cast<float>(srgb_to_linear(run_colours[run][c] / 255.0));
-  return colour;
+    color[c] = static_cast<float>(srgb_to_linear(run_colors[run][c] / 255.0));
+  return color;
 }
 
 std::vector<OverlayLine> comparison_text(const std::string& name, std::size_t run, double time,
@@ -37,7 +37,7 @@ int comparison_text_height(int frame_height, std::size_t runs) {
   return std::clamp(frame_height / (runs > 2 ? 40 : 32), 11, 256);
 }
 
-std::vector<Tile> tiles_of(const PictureSize& frame, std::size_t runs) {
+std::vector<Tile> tiles_of(const ImageSize& frame, std::size_t runs) {
   constexpr int gap = 2;
   const bool wide = frame.width >= frame.height;
   const int columns = runs > 2 || (runs == 2 && wide) ? 2 : 1;
@@ -52,7 +52,7 @@ std::vector<Tile> tiles_of(const PictureSize& frame, std::size_t runs) {
   return tiles;
 }
 
-Result<ComparisonCanvas> ComparisonCanvas::create(gl::Context& context, const PictureSize& size) {
+Result<ComparisonCanvas> ComparisonCanvas::create(gl::Context& context, const ImageSize& size) {
   ComparisonCanvas canvas;
   ASPIC_TRY(canvas.image_, DrawableImage::create(context, "runs side by side",
                                                  {.width = size.width, .height = size.height}, false));
@@ -75,13 +75,13 @@ void ComparisonCanvas::place(std::size_t run, const gl::Framebuffer& image, bool
   whole.place(image, tile.left, bottom);
   if (!framed) return;
   const int wide = std::max(whole.height() / 240, 1);
-  std::array<float, 3> colour;
-  for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<float>(run_colours[run][c]) / 255.0f;
+  std::array<float, 3> color;
+  for (std::size_t c = 0; c < 3; ++c) color[c] = static_cast<float>(run_colors[run][c]) / 255.0f;
   for (const gl::PixelBox& edge : {gl::PixelBox{tile.left, bottom, tile.left + wide, top},
                                    {right - wide, bottom, right, top},
                                    {tile.left, bottom, right, bottom + wide},
                                    {tile.left, top - wide, right, top}})
-    whole.fill(edge, colour);
+    whole.fill(edge, color);
 }
 
 }  // namespace aspic

@@ -10,7 +10,7 @@
 namespace aspic {
 namespace {
 
-/// Particles that are kept in memory too, so that a picture's moving part can be told.
+/// Particles that are kept in memory too, so that an image's moving part can be told.
 constexpr std::size_t most_followed = 100000;
 
 template <class T>

@@ -1,6 +1,6 @@
 #pragma once
-// Charts: panels with axes, curves and maps, as inline SVG and as CSV. Colours are CSS variables, so that one
-// picture serves light and dark pages.
+// Charts: panels with axes, curves and maps, as inline SVG and as CSV. Colors are CSS variables, so that one
+// image serves light and dark pages.
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -22,9 +22,9 @@ struct Point {
   double x = 0.0, y = 0.0;  ///< not finite: a gap
 };
 
-/// How a curve looks. Colour, dash and marker go together, so that no curve is told by colour alone.
+/// How a curve looks. Color, dash and marker go together, so that no curve is told by color alone.
 enum class Palette {
-  category,  ///< eight, told apart with any colour vision (Okabe and Ito, 2008)
+  category,  ///< eight, told apart with any color vision (Okabe and Ito, 2008)
   sequence,  ///< five, from dark to light: values of one parameter
   theory     ///< neutral and dashed
 };
@@ -39,7 +39,7 @@ struct Curve {
 
 /// Cells of a map, row by row from the lowest y: x_edges.size() − 1 by y_edges.size() − 1.
 struct CellMap {
-  std::vector<double> x, y;              ///< centres
+  std::vector<double> x, y;              ///< centers
   std::vector<double> x_edges, y_edges;  ///< ascending
   std::vector<bool> stable;
 };

@@ -16,7 +16,7 @@ char palette_letter(const Curve& curve) {
   return curve.palette == Palette::sequence ? 's' : 'c';
 }
 
-std::string colour(const Curve& curve) {
+std::string color(const Curve& curve) {
   const std::size_t count = curve.palette == Palette::sequence ? 5 : 8;
   return fmt::format("var(--{}{})", palette_letter(curve), curve.index % count);
 }
@@ -73,13 +73,13 @@ std::string marker(const Curve& curve, double x, double y) {
 std::string line_style(const Curve& curve) {
   if (curve.palette == Palette::theory) return "class=\"theory\"";
   const std::string_view pattern = dash(curve);
-  return fmt::format("class=\"l\" style=\"stroke:{}{}{}\"", colour(curve),
+  return fmt::format("class=\"l\" style=\"stroke:{}{}{}\"", color(curve),
                      pattern.empty() ? "" : ";stroke-dasharray:", pattern);
 }
 
 std::string marker_style(const Curve& curve) {
   if (curve.palette == Palette::theory) return "class=\"m tm\"";
-  return fmt::format("class=\"m\" style=\"fill:{}\"", colour(curve));
+  return fmt::format("class=\"m\" style=\"fill:{}\"", color(curve));
 }
 
 std::string text(double x, double y, std::string_view words, std::string_view attributes) {

@@ -10,7 +10,7 @@ namespace aspic::report {
 /// What a chart is drawn on: its letters have one size on paper however wide the chart is.
 struct Frame {
   double left, right, top, bottom;                   ///< around a panel's data [px]
-  double inner_left, inner_bottom;                   ///< the same where a neighbour's axis serves [px]
+  double inner_left, inner_bottom;                   ///< the same where a neighbor's axis serves [px]
   double title_up, tick_down, axis_down, axis_left;  ///< base lines from the data's edges [px]
   double legend_row;                                 ///< height [px]
   double letter, tick_letter;                        ///< mean width [px]

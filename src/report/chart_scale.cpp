@@ -72,11 +72,10 @@ void AxisScale::make_log_ticks() {
     for (int digit = 1; digit < 10; ++digit) {
       const double value = digit * std::pow(10.0, exponent);
       if (value < from_ * (1 - 1e-9) || value > to_ * (1 + 1e-9)) continue;
-      const bool labelled =
-          digit == 1 ? exponent % every == 0 : (decades < 2.0 && (digit == 2 || digit == 5));
+      const bool labeled = digit == 1 ? exponent % every == 0 : (decades < 2.0 && (digit == 2 || digit == 5));
       if (digit > 1 && decades > 4.0) continue;
       Tick tick = {value, ""};
-      if (labelled)
+      if (labeled)
         tick.label = plain        ? fmt::format("{:.6g}", value)
                      : digit == 1 ? power_of_ten(exponent)
                                   : fmt::format("{}·{}", digit, power_of_ten(exponent));

@@ -49,7 +49,7 @@ Result<double> measured_restitution(const Study& study, ContactModel contact, do
   return std::sqrt((apex - lowest) / (start - lowest));
 }
 
-/// Of the scene's bodies: square root of the rise of the centre of mass after the impact over its fall.
+/// Of the scene's bodies: square root of the rise of the center of mass after the impact over its fall.
 Result<std::optional<double>> rebound_of_body(const Study& study, double e) {
   Scene scene = study.scene;
   scene.model.contact.restitution = e;

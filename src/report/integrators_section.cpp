@@ -82,7 +82,7 @@ Result<Figure> limits_figure(const Study& study, const Model& model) {
     figure.table->rows.push_back(std::move(row));
   }
   figure.caption = fmt::format(
-      "The largest stable time step of {}. Theory: the largest h at which no mode of the linearised springs "
+      "The largest stable time step of {}. Theory: the largest h at which no mode of the linearized springs "
       "grows. Measured: bisection to 0.2 % between "
       "runs of 960 steps in single precision whose small initial motion grows or does not. Implicit Euler "
       "has no limit.",
@@ -105,14 +105,14 @@ Result<Smooth> smooth_body(const Study& study) {
   smooth.model = alone_in_space(std::move(built));
   smooth.model.simulation.implicit = {50, 500, 1e-11};  // the solve takes no part in errors
   smooth.start = initial_state(smooth.model, Precision::double_);
-  Vec3 centre;
-  for (const Vec3& x : smooth.start.position) centre = centre + x;
-  centre = centre / static_cast<double>(std::max<std::size_t>(1, smooth.start.position.size()));
+  Vec3 center;
+  for (const Vec3& x : smooth.start.position) center = center + x;
+  center = center / static_cast<double>(std::max<std::size_t>(1, smooth.start.position.size()));
   for (std::size_t i = 0; i < smooth.start.position.size(); ++i) {
-    const Vec3 d = smooth.start.position[i] - centre;
+    const Vec3 d = smooth.start.position[i] - center;
     smooth.start.velocity[i] = {};
     if (smooth.model.inverse_mass[i] == 0.0) continue;
-    smooth.start.position[i] = centre + Vec3{1.06 * d.x + 0.03 * d.y, 0.95 * d.y, 1.03 * d.z};
+    smooth.start.position[i] = center + Vec3{1.06 * d.x + 0.03 * d.y, 0.95 * d.y, 1.03 * d.z};
     smooth.start.velocity[i] = {0.3 * d.y, -0.2 * d.x, 0.1 * d.z};
   }
   return smooth;
@@ -269,7 +269,7 @@ Result<Figure> free_energy_figure(const Study& study, const Smooth& smooth) {
   return figure;
 }
 
-/// The scene itself with every method: energy over time and pictures.
+/// The scene itself with every method: energy over time and images.
 Status add_drops(const Study& study, Section& section) {
   const double duration = study.scene.model.simulation.duration;
   ASPIC_TRY(const auto own, build_model(study.scene.model));
@@ -304,7 +304,7 @@ Status add_drops(const Study& study, Section& section) {
   for (std::size_t m = 0; m < methods; ++m) {
     const TrialResult& result = results[m];
     if (!result.summary) continue;
-    if (m == 0 || view == study.scene.view) view = framed(study.scene.view, result.pictures);
+    if (m == 0 || view == study.scene.view) view = framed(study.scene.view, result.images);
     Curve curve = course_curve(
         title_of(m), result.samples, [](const CourseSample& s) { return s.measures.total(); },
         Palette::category, m);
@@ -313,7 +313,7 @@ Status add_drops(const Study& study, Section& section) {
                  a_step =
                      result.thread_seconds / static_cast<double>(std::max<std::uint64_t>(1, result.steps));
     energy.table->rows.push_back({title_of(m), h, 1e6 * a_step, a_step / h});
-    ASPIC_TRY(auto jpegs, study.pictures(models[m], result.pictures, view));
+    ASPIC_TRY(auto jpegs, study.images(models[m], result.images, view));
     strip.strip->rows.push_back({title_of(m), fmt::format("h = {} s", rounded(h)), std::move(jpegs)});
   }
   energy.caption = fmt::format(

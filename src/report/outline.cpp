@@ -55,7 +55,7 @@ Result<Figure> scene_figure(const Study& study, const Model& model) {
   figure.id = "scene";
   figure.strip.emplace();
   for (const double t : times) figure.strip->columns.push_back(fmt::format("t = {} s", rounded(t, 3)));
-  ASPIC_TRY(auto jpegs, study.pictures(model, run.pictures, framed(study.scene.view, run.pictures)));
+  ASPIC_TRY(auto jpegs, study.images(model, run.images, framed(study.scene.view, run.images)));
   const IntegratorRow& method = row_of(model.simulation.integrator);
   figure.strip->rows.push_back({std::string(method.title),
                                 fmt::format("h = {} s", rounded(model.simulation.timestep)),
@@ -82,7 +82,7 @@ Result<Figure> springs_figure(const Study& study, const Model& model) {
   const SpringCounts counts = spring_counts(model);
   const State start = initial_state(model, Precision::single);
   ViewSettings view = framed(study.scene.view, std::span(&start, 1));
-  view.colour = ViewColour::type;
+  view.color = ViewColor::type;
   view.terrain = false;
   Figure figure;
   figure.id = "springs";
@@ -96,7 +96,7 @@ Result<Figure> springs_figure(const Study& study, const Model& model) {
                  .structural = type == SpringType::structural,
                  .shear = type == SpringType::shear,
                  .bending = type == SpringType::bending};
-    ASPIC_TRY(auto jpegs, study.pictures(model, std::span(&start, 1), view));
+    ASPIC_TRY(auto jpegs, study.images(model, std::span(&start, 1), view));
     if (jpegs.empty()) break;
     figure.strip->columns.push_back(
         fmt::format("{}: {}", name_of(type), grouped(counts[static_cast<std::size_t>(type)])));
@@ -183,10 +183,10 @@ std::string question_of(std::string_view id) {
 /// A question after the last figure of each parameter.
 void ask(Section& parameters) {
   for (Figure& figure : parameters.figures) {
-    const bool pictures = figure.id.ends_with("-pictures");
-    const std::string of = pictures ? figure.id.substr(0, figure.id.rfind("-pictures")) : figure.id;
-    const bool last = pictures || std::ranges::none_of(parameters.figures, [&](const Figure& other) {
-                        return other.id == of + "-pictures";
+    const bool images = figure.id.ends_with("-images");
+    const std::string of = images ? figure.id.substr(0, figure.id.rfind("-images")) : figure.id;
+    const bool last = images || std::ranges::none_of(parameters.figures, [&](const Figure& other) {
+                        return other.id == of + "-images";
                       });
     if (last) figure.gap = question_of(of);
   }

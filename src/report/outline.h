@@ -13,7 +13,7 @@ struct OutlineRow {
   std::size_t most_pages;                      ///< that the course takes
   std::span<const std::string_view> sections;  ///< those of SectionRow that it is made of
   /// The chapters from these sections, which come in the order of the table. Errors: those of solvers and
-  /// pictures; interrupted.
+  /// images; interrupted.
   Result<std::vector<Section>> (*arrange)(const Study& study, std::vector<Section> sections);
 };
 

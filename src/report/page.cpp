@@ -10,7 +10,7 @@ namespace {
 std::string chart_file(const Figure& figure) {
   return fmt::format("figures/{}.svg", figure.id);
 }
-std::string picture_file(const Figure& figure, std::size_t row, std::size_t column) {
+std::string image_file(const Figure& figure, std::size_t row, std::size_t column) {
   return fmt::format("figures/{}-{}-{}.jpg", figure.id, row + 1, column + 1);
 }
 std::string chart_csv(const Figure& figure) {
@@ -113,7 +113,7 @@ std::string markdown_of(const Page& page) {
                 out += fmt::format("| {} {} ", row.title, row.note);
                 for (std::size_t c = 0; c < strip->columns.size(); ++c)
                   out += c < row.jpegs.size() && !row.jpegs[c].empty()
-                             ? fmt::format("| ![]({}) ", picture_file(figure, r, c))
+                             ? fmt::format("| ![]({}) ", image_file(figure, r, c))
                              : "| diverged ";
                 out += "|\n";
               }
@@ -145,7 +145,7 @@ std::map<std::string, std::string> files_of(const Page& page) {
       for (std::size_t r = 0; r < figure.strip->rows.size(); ++r) {
         const auto& jpegs = figure.strip->rows[r].jpegs;
         for (std::size_t c = 0; c < jpegs.size(); ++c)
-          if (!jpegs[c].empty()) files[picture_file(figure, r, c)] = jpegs[c];
+          if (!jpegs[c].empty()) files[image_file(figure, r, c)] = jpegs[c];
       }
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The report as plain data, and its forms: one HTML file, Markdown with separate pictures, CSV.
+// The report as plain data, and its forms: one HTML file, Markdown with separate images, CSV.
 #include <map>
 #include <optional>
 #include <string>
@@ -32,7 +32,7 @@ struct Table {
   std::vector<std::vector<Cell>> rows;
 };
 
-/// Pictures in rows.
+/// Images in rows.
 struct Strip {
   std::vector<std::string> columns;  ///< "t = 1.5 s"
   struct Row {
@@ -73,7 +73,7 @@ struct Page {
 
 /// The page as one file without any link to another place but its own CSV files.
 std::string html_of(const Page& page);
-/// The same in Markdown; charts and pictures are the files of files_of().
+/// The same in Markdown; charts and images are the files of files_of().
 std::string markdown_of(const Page& page);
 /// The CSV of a table.
 std::string csv_of(const Table& table);

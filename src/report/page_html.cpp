@@ -20,7 +20,7 @@ constexpr double half_width = 312.0, full_width = 680.0;
 /// What has more columns does not fit next to a chart.
 constexpr std::size_t most_columns = 5;
 /// What has more rows may be divided between two pages.
-constexpr std::size_t most_rows = 10, most_picture_rows = 3;
+constexpr std::size_t most_rows = 10, most_image_rows = 3;
 
 /// Text with `code` in backquotes.
 std::string inline_html(const std::string& text) {
@@ -89,7 +89,7 @@ std::string html_of(const Figure& figure, std::size_t number) {
   const bool narrow_table = !figure.table || figure.table->columns.size() <= most_columns;
   const bool half = figure.chart && figure.chart->columns == 1 && narrow_table;
   const bool divisible = (figure.table && figure.table->rows.size() > most_rows) ||
-                         (figure.strip && figure.strip->rows.size() > most_picture_rows);
+                         (figure.strip && figure.strip->rows.size() > most_image_rows);
   const bool beside = half || (!figure.chart && !figure.command.empty());
   std::string out = fmt::format("<figure id=\"{}\" class=\"{}{}\">", figure.id,
                                 beside         ? "half"

@@ -122,7 +122,7 @@ Panel measure_panel(const ShortKey& key, std::string title, std::string measure,
   return panel;
 }
 
-/// When the centre of mass is highest after the deepest squash [s].
+/// When the center of mass is highest after the deepest squash [s].
 double apex(const TrialResult& result) {
   double time = result.summary->squash_time, highest = -std::numeric_limits<double>::infinity();
   for (const CourseSample& sample : result.samples) {
@@ -138,7 +138,7 @@ ViewSettings following_view(const ViewSettings& view, const std::vector<TrialRes
   std::vector<State> shown;
   for (const TrialResult& result : results) {
     if (result.outcome != Outcome::ok) continue;
-    for (State state : result.pictures) {
+    for (State state : result.images) {
       const Vec3 way = way_of(state);
       for (Vec3& x : state.position) x = x - way;
       for (Vec3& x : state.ball_position) x = x - way;
@@ -148,7 +148,7 @@ ViewSettings following_view(const ViewSettings& view, const std::vector<TrialRes
   return framed(view, shown);
 }
 
-/// The measures and, with a studio, the pictures; nothing where the scene has no such parameter.
+/// The measures and, with a studio, the images; nothing where the scene has no such parameter.
 Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& base, const Varied& row) {
   const ShortKey& key = *find_short_key(row.key);
   const bool step_varied = key.name == "h";
@@ -168,7 +168,7 @@ Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& 
   std::vector<Scene> scenes(words.size());
   std::vector<TrialResult> results(words.size());
   std::vector<double> times;
-  const auto run = [&](std::size_t i, std::span<const double> picture_times) -> Status {
+  const auto run = [&](std::size_t i, std::span<const double> image_times) -> Status {
     ASPIC_TRY(auto assigned, assignments(study.scene, key.name, words[i]));
     assigned.insert(assigned.end(), fixed.begin(), fixed.end());
     auto scene = study.varied(assigned);
@@ -178,7 +178,7 @@ Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& 
     }
     scenes[i] = std::move(*scene);
     ASPIC_TRY(models[i], build_model(scenes[i].model));
-    ASPIC_TRY(results[i], study.run(models[i], base.duration, picture_times));
+    ASPIC_TRY(results[i], study.run(models[i], base.duration, image_times));
     return {};
   };
   // The middle value says when there is something to see.
@@ -237,7 +237,7 @@ Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& 
     if (const auto& s = result.summary; s && result.outcome == Outcome::ok) {
       cells.insert(cells.end(),
                    {s->squash, s->squash_time, Cell(s->rest_time), s->end.slide, s->end.measures.total()});
-      ASPIC_TRY(auto jpegs, study.pictures(models[i], result.pictures, view, true));
+      ASPIC_TRY(auto jpegs, study.images(models[i], result.images, view, true));
       for (std::size_t t = 0; t < jpegs.size() && t < times.size(); ++t)
         strip.rows[t].jpegs[i] = std::move(jpegs[t]);
     } else {
@@ -256,16 +256,16 @@ Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& 
                                fmt::join(words, ","), key.name);
   std::vector<Figure> figures = {std::move(figure)};
   if (!study.studio) return figures;
-  Figure pictures;
-  pictures.id = fmt::format("parameter-{}-pictures", key.name);
-  pictures.strip = std::move(strip);
-  pictures.caption = fmt::format(
+  Figure images;
+  images.id = fmt::format("parameter-{}-images", key.name);
+  images.strip = std::move(strip);
+  images.caption = fmt::format(
       "{}: the same runs{}. The camera follows the body sideways.", title,
       lands ? fmt::format(" at the moments of {} = {}: largest compression, highest point after it, end",
                           key.name, words[middle])
             : "");
-  pictures.command = fmt::format("aspic run {} --variant {}=VALUE --frames DIR", words_of_scene, key.name);
-  figures.push_back(std::move(pictures));
+  images.command = fmt::format("aspic run {} --variant {}=VALUE --frames DIR", words_of_scene, key.name);
+  figures.push_back(std::move(images));
   return figures;
 }
 

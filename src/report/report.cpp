@@ -209,7 +209,7 @@ Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interr
   const Page& page = *made;
 
   ReportSummary summary;
-  summary.no_pictures = study.no_studio;
+  summary.no_images = study.no_studio;
   const fs::path out = plan.out;
   for (const auto& [name, content] : files_of(page)) {
     ASPIC_CHECK(write_file(out / name, content));

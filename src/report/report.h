@@ -29,7 +29,7 @@ struct ReportPlan {
 struct ReportSummary {
   std::vector<std::string> files;  ///< the pages, in the order of report.html, report.md, report.pdf
   std::size_t data_files = 0;
-  std::string no_pdf, no_pictures;        ///< why there is none; empty: there is
+  std::string no_pdf, no_images;          ///< why there is none; empty: there is
   std::optional<std::size_t> pages;       ///< of the PDF, where it can be counted
   std::optional<std::size_t> most_pages;  ///< that the outline allows; absent: no limit
 };

@@ -26,11 +26,11 @@ constexpr Constant constants[] = {
     {"c", [](const Model& m, double factor, double h) { return with_constants(m, 1.0, factor, h); }},
 };
 
-/// Edges halfway between centres of constant ratio.
-std::vector<double> edges_of(const std::vector<double>& centres) {
-  const double half = std::sqrt(centres[1] / centres[0]);
-  std::vector<double> edges = {centres.front() / half};
-  for (const double centre : centres) edges.push_back(centre * half);
+/// Edges halfway between centers of constant ratio.
+std::vector<double> edges_of(const std::vector<double>& centers) {
+  const double half = std::sqrt(centers[1] / centers[0]);
+  std::vector<double> edges = {centers.front() / half};
+  for (const double center : centers) edges.push_back(center * half);
   return edges;
 }
 
@@ -142,7 +142,7 @@ Result<Figure> map_figure(const Study& study, const Model& model, const ProbeSta
       "displaced by a "
       "thousandth of a spring in their stiffest mode: it is unstable if that motion has grown after {} "
       "steps. The dashed line is the largest step "
-      "that the linearised springs allow.",
+      "that the linearized springs allow.",
       key.title, study.scene.name, study.thorough ? 480 : 240);
   figure.command = study.command("stability");
   return figure;

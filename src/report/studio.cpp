@@ -18,16 +18,16 @@ Result<std::unique_ptr<Studio>> Studio::open() {
   return studio;
 }
 
-Result<std::string> Studio::jpeg(const State& state, const ViewSettings& view, const PictureSize& size) {
+Result<std::string> Studio::jpeg(const State& state, const ViewSettings& view, const ImageSize& size) {
   const gl::Current here(*context_);
   ASPIC_CHECK(here.status());
   ASPIC_TRY(const auto uploaded, renderer_->upload(state));
-  PictureOptions options;
+  ImageOptions options;
   options.view = view;
   options.legend = false;
   ASPIC_CHECK(renderer_->draw(size.width, size.height, uploaded, options));
   ASPIC_TRY(auto ring, gl::PixelRing::create(*context_, size.width, size.height));
-  ring.submit(renderer_->picture());
+  ring.submit(renderer_->image());
   std::vector<std::byte> rgb;
   ASPIC_CHECK(ring.take(rgb));
   return encode_jpeg(size, rgb);

@@ -17,7 +17,7 @@
 namespace aspic::report {
 namespace {
 
-constexpr PictureSize picture_size = {288, 216};
+constexpr ImageSize image_size = {288, 216};
 
 /// Spring forces after which a run ends, some seconds on one processor.
 constexpr double most_evaluations = 1e9;
@@ -30,7 +30,7 @@ double evaluations(const Model& model) {
          (stages > 0 ? stages : solve);
 }
 
-/// What a picture is about: particles, or balls where there are none. Balls roll far away from what they hit.
+/// What an image is about: particles, or balls where there are none. Balls roll far away from what they hit.
 const std::vector<Vec3>& shown_places(const State& state) {
   return state.position.empty() ? state.ball_position : state.position;
 }
@@ -83,7 +83,7 @@ Result<Scene> Study::varied(const std::vector<std::string>& assignments) const {
   return with_overrides(scene, assignments);
 }
 
-Result<TrialResult> Study::run(const Model& model, double duration, std::span<const double> picture_times,
+Result<TrialResult> Study::run(const Model& model, double duration, std::span<const double> image_times,
                                double interval) const {
   TrialOptions options;
   options.backend = backend();
@@ -93,7 +93,7 @@ Result<TrialResult> Study::run(const Model& model, double duration, std::span<co
     ++shortened_;
   }
   options.interval = interval;
-  options.picture_times = picture_times;
+  options.image_times = image_times;
   options.stop = stop_;
   return run_trial(shared(model), options);
 }
@@ -124,8 +124,8 @@ std::string Study::command(std::string_view section) const {
                      section);
 }
 
-Result<std::vector<std::string>> Study::pictures(const Model& model, std::span<const State> states,
-                                                 const ViewSettings& view, bool follow) const {
+Result<std::vector<std::string>> Study::images(const Model& model, std::span<const State> states,
+                                               const ViewSettings& view, bool follow) const {
   std::vector<std::string> jpegs;
   if (!studio) return jpegs;
   ASPIC_CHECK(studio->set_model(model));
@@ -134,7 +134,7 @@ Result<std::vector<std::string>> Study::pictures(const Model& model, std::span<c
     const Vec3 way = follow ? way_of(state) : Vec3{};
     moved.camera.position = moved.camera.position + way;
     moved.camera.target = moved.camera.target + way;
-    ASPIC_TRY(auto jpeg, studio->jpeg(state, moved, picture_size));
+    ASPIC_TRY(auto jpeg, studio->jpeg(state, moved, image_size));
     jpegs.push_back(std::move(jpeg));
   }
   return jpegs;

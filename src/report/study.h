@@ -1,5 +1,5 @@
 #pragma once
-// What the sections of a report share: the scene, solvers, pictures, processors.
+// What the sections of a report share: the scene, solvers, images, processors.
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -27,7 +27,7 @@ class Study {
   const std::string scene_words;
   const bool thorough;
   const verify::Subject subject;
-  /// Null: there are no pictures, and why not.
+  /// Null: there are no images, and why not.
   std::unique_ptr<Studio> studio;
   std::string no_studio;
 
@@ -41,8 +41,8 @@ class Study {
 
   /// The scene with KEY=VALUE arguments (scene/short_keys.h) applied. Errors: with_overrides.
   Result<Scene> varied(const std::vector<std::string>& assignments) const;
-  /// A run of a scene's model over `duration` [s], longest_run() at most, with states near `picture_times`.
-  Result<TrialResult> run(const Model& model, double duration, std::span<const double> picture_times = {},
+  /// A run of a scene's model over `duration` [s], longest_run() at most, with states near `image_times`.
+  Result<TrialResult> run(const Model& model, double duration, std::span<const double> image_times = {},
                           double interval = sample_interval) const;
 
   /// What some seconds of computing simulate [s]; without end if thorough.
@@ -60,10 +60,10 @@ class Study {
   /// `aspic report SCENE --only SECTION --out DIR`
   std::string command(std::string_view section) const;
 
-  /// A row of pictures, empty without a studio; with `follow` the camera moves sideways with the bodies.
+  /// A row of images, empty without a studio; with `follow` the camera moves sideways with the bodies.
   /// The model outlives the call.
-  Result<std::vector<std::string>> pictures(const Model& model, std::span<const State> states,
-                                            const ViewSettings& view, bool follow = false) const;
+  Result<std::vector<std::string>> images(const Model& model, std::span<const State> states,
+                                          const ViewSettings& view, bool follow = false) const;
 
  private:
   unsigned jobs_;
@@ -71,7 +71,7 @@ class Study {
   mutable std::atomic<std::size_t> shortened_ = 0;
 };
 
-/// Where the centre of all particles is, or of all balls where there are none, without its height [m].
+/// Where the center of all particles is, or of all balls where there are none, without its height [m].
 Vec3 way_of(const State& state);
 
 /// The scene's view turned to where the states' particles are, or their balls where there are none, and as
@@ -93,7 +93,7 @@ struct SectionRow {
   Result<Section> (*make)(const Study& study);
 };
 
-// The sections, one source file each. Errors: those of solvers and pictures; interrupted.
+// The sections, one source file each. Errors: those of solvers and images; interrupted.
 Result<Section> integrators_section(const Study& study);
 Result<Section> parameters_section(const Study& study);
 Result<Section> stability_section(const Study& study);

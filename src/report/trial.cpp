@@ -44,9 +44,9 @@ Result<TrialResult> run_trial(SharedModel shared_model, const TrialOptions& opti
     auto state = solver.state();
     if (!state) return trial_error(state.error());
     course.take(*state);
-    while (result.pictures.size() < options.picture_times.size() &&
-           static_cast<double>(step) * h >= options.picture_times[result.pictures.size()] - 0.5 * h)
-      result.pictures.push_back(*state);
+    while (result.images.size() < options.image_times.size() &&
+           static_cast<double>(step) * h >= options.image_times[result.images.size()] - 0.5 * h)
+      result.images.push_back(*state);
     if (step == *steps || divergence) {
       result.steps = state->step;
       result.hash = state_hash_text(*state);
@@ -54,8 +54,8 @@ Result<TrialResult> run_trial(SharedModel shared_model, const TrialOptions& opti
     }
     if (options.stop && options.stop()) return Error{ErrorCode::interrupted, "interrupted."};
     std::uint64_t next = std::min(*steps, step + stride);
-    if (result.pictures.size() < options.picture_times.size()) {
-      const std::uint64_t wanted = nearest_step(options.picture_times[result.pictures.size()], h);
+    if (result.images.size() < options.image_times.size()) {
+      const std::uint64_t wanted = nearest_step(options.image_times[result.images.size()], h);
       if (wanted > step) next = std::min(next, wanted);
     }
     const auto before = std::chrono::steady_clock::now();

@@ -25,7 +25,7 @@ struct TrialResult {
   std::uint64_t steps = 0;               ///< the last good one
   std::optional<CourseSummary> summary;  ///< absent: it never began
   std::vector<CourseSample> samples;
-  std::vector<State> pictures;  ///< of `picture_times`
+  std::vector<State> images;    ///< of `image_times`
   std::string hash;             ///< of the last good state
   std::string solver;           ///< Backend::variant(); empty: it never began
   double seconds = 0.0;         ///< that its steps took, samples not counted
@@ -35,9 +35,9 @@ struct TrialResult {
 struct TrialOptions {
   BackendChoice backend;
   RunLength length;
-  double interval = sample_interval;           ///< between samples [s]
-  std::span<const double> picture_times = {};  ///< ascending [s]: states near them are kept
-  std::function<bool()> stop = {};             ///< asked at each sample; true ends the run early
+  double interval = sample_interval;         ///< between samples [s]
+  std::span<const double> image_times = {};  ///< ascending [s]: states near them are kept
+  std::function<bool()> stop = {};           ///< asked at each sample; true ends the run early
 };
 
 /// Processor time of the calling thread so far [s]: unlike the clock's it does not count what others do.

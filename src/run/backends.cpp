@@ -40,7 +40,7 @@ Result<Backend> make_gpu(SharedModel model, const BackendChoice& choice, const S
   return backend;
 }
 
-/// Whether there is a software rasteriser where no hardware was found. EGL's list is asked first: to make a
+/// Whether there is a software rasterizer where no hardware was found. EGL's list is asked first: to make a
 /// context takes a while, but the environment may choose a device that is not in the list.
 bool has_software_device() {
   const char* const variable = std::getenv("ASPIC_EGL_DEVICE");

@@ -18,7 +18,7 @@ struct DeviceCapacity {
 /// Of the hardware GPU or, without one, of whatever device there is; nothing without any.
 std::optional<DeviceCapacity> device_capacity(Integrator integrator);
 
-/// Bytes that are free for buffers of this device: its own or, for a software rasteriser, the machine's.
+/// Bytes that are free for buffers of this device: its own or, for a software rasterizer, the machine's.
 /// Nothing where neither tells.
 std::optional<std::uint64_t> free_bytes(gl::Context& context);
 

@@ -30,7 +30,7 @@ Result<FrameContext> frame_context(const Backend& backend) {
   return FrameContext{own, std::move(*context)};
 }
 
-Status check_frame_count(const PictureOutput& output, double timestep, std::uint64_t first_step,
+Status check_frame_count(const ImageOutput& output, double timestep, std::uint64_t first_step,
                          std::uint64_t last_step) {
   if (!output.any() && !output.any_page()) return {};
   const double fps = frames_per_second(output);
@@ -46,7 +46,7 @@ Status check_frame_count(const PictureOutput& output, double timestep, std::uint
 }
 
 struct Recorder::Parts {
-  PictureOutput output;
+  ImageOutput output;
   const Scene& scene;
   const Backend& backend;
   FrameSchedule schedule;
@@ -82,7 +82,7 @@ const std::string& Recorder::device() const {
   return parts_->video->device();
 }
 
-Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, const Scene& scene,
+Result<std::unique_ptr<Recorder>> Recorder::create(const ImageOutput& output, const Scene& scene,
                                                    const Backend& backend,
                                                    std::vector<std::unique_ptr<FrameSink>> sinks,
                                                    std::uint64_t first_step, std::uint64_t last_step) {

@@ -11,7 +11,7 @@
 #include "aspic/run.h"
 #include "base/result.h"
 #include "gpu/pixel_ring.h"
-#include "io/film_format.h"
+#include "io/video_format.h"
 
 namespace aspic {
 
@@ -19,7 +19,7 @@ namespace aspic {
 struct VideoOptions {
   std::string path;   ///< of the first sink
   double fps = 60.0;  ///< frames shown per second, > 0
-  PictureSize size;
+  ImageSize size;
 };
 
 /// Takes frames of one size and drops none: while the encoder is behind, ready() is false. If a sink fails,

@@ -9,18 +9,18 @@
 #include <utility>
 
 #include "base/result.h"
-#include "io/film_format.h"
 #include "io/numbered_files.h"
 #include "io/state_sink.h"
+#include "io/video_format.h"
 #include "page/live_facts.h"
 #include "page/page_writer.h"
 
 namespace aspic {
 namespace {
 
-Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOutput& pictures) {
+Status refuse_duplicates(const std::vector<StateOutput>& states, const ImageOutput& images) {
   std::vector<std::pair<std::string, std::string>> files = {
-      {"video", pictures.video}, {"page", pictures.page}, {"live page", pictures.page_live}};
+      {"video", images.video}, {"page", images.page}, {"live page", images.page_live}};
   for (const StateOutput& output : states) {
     files.emplace_back(output.option, output.path);
     if (output.path.empty()) continue;
@@ -85,11 +85,11 @@ std::vector<std::unique_ptr<FrameSink>> RunFiles::take_frame_sinks() {
   return std::move(parts_->frame_sinks);
 }
 
-Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
+Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const ImageOutput& images,
                                 const RunFacts& facts, Overwrite overwrite, const PageFacts& page) {
   ASPIC_CHECK(check_endings(states));
-  ASPIC_CHECK(refuse_duplicates(states, pictures));
-  if (page.scene && !pictures.page_live.empty())
+  ASPIC_CHECK(refuse_duplicates(states, images));
+  if (page.scene && !images.page_live.empty())
     ASPIC_CHECK(page::check_live(page.precision, page.arithmetic, !facts.inputs_toml.empty()));
   auto files = std::make_unique<Parts>();
   for (const StateOutput& output : states) {
@@ -99,24 +99,24 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
               format.open(output.path, output.every.value_or(format.default_every), overwrite, facts));
     files->outputs.push_back({std::move(sink)});
   }
-  for (const std::string* const path : {&pictures.page, &pictures.page_live}) {
+  for (const std::string* const path : {&images.page, &images.page_live}) {
     if (!page.scene || path->empty()) continue;
     ASPIC_CHECK(page::check_page_name(*path));
-    const page::PageSettings settings = {frames_per_second(pictures), pictures.speed, page.command,
-                                         path == &pictures.page_live};
+    const page::PageSettings settings = {frames_per_second(images), images.speed, page.command,
+                                         path == &images.page_live};
     ASPIC_TRY(auto sink,
               page::open_page(*path, overwrite, *page.scene, settings, page.first_step, page.last_step));
     files->outputs.push_back({std::move(sink)});
   }
-  const auto add = [&](const FilmFormat& format, const std::string& path) -> Status {
-    ASPIC_TRY(auto sink, open_film(format, path, pictures.size, frames_per_second(pictures), overwrite));
+  const auto add = [&](const VideoFormat& format, const std::string& path) -> Status {
+    ASPIC_TRY(auto sink, open_video(format, path, images.size, frames_per_second(images), overwrite));
     files->frame_sinks.push_back(std::move(sink));
     return {};
   };
-  if (!pictures.frames.empty()) ASPIC_CHECK(add(*pictures.frames_format, pictures.frames));
-  if (!pictures.video.empty()) {
-    ASPIC_TRY(const auto format, video_format_of(pictures.video));
-    ASPIC_CHECK(add(*format, pictures.video));
+  if (!images.frames.empty()) ASPIC_CHECK(add(*images.frames_format, images.frames));
+  if (!images.video.empty()) {
+    ASPIC_TRY(const auto format, video_format_of(images.video));
+    ASPIC_CHECK(add(*format, images.video));
   }
   return RunFiles(std::move(files));
 }
@@ -168,7 +168,7 @@ Status check_endings(const std::vector<StateOutput>& outputs) {
   return {};
 }
 
-double frames_per_second(const PictureOutput& output) {
+double frames_per_second(const ImageOutput& output) {
   if (output.fps) return *output.fps;
   const auto format = video_format_of(output.video);
   return format ? (*format)->default_fps : output.frames_format->default_fps;

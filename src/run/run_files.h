@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "aspic/run.h"
-#include "io/film_format.h"
 #include "io/state_sink.h"
+#include "io/video_format.h"
 
 namespace aspic {
 
@@ -14,7 +14,7 @@ namespace aspic {
 Status check_endings(const std::vector<StateOutput>& outputs);
 
 /// The frames per second of the options, or else those of the format.
-double frames_per_second(const PictureOutput& output);
+double frames_per_second(const ImageOutput& output);
 
 /// A name in the working directory that nothing has yet: `aspic-cube-plane-0001.mp4`. `scene` is a file or a
 /// built-in name; the ending may be empty.

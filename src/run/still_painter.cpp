@@ -14,7 +14,7 @@ struct StillPainter::Parts {
   std::shared_ptr<gl::Context> own_context = nullptr;
   gl::Context* context = nullptr;
   std::unique_ptr<FramePainter> painter = nullptr;
-  PictureSize size = {};
+  ImageSize size = {};
   std::vector<std::byte> scratch = {};
 };
 
@@ -29,7 +29,7 @@ Result<std::unique_ptr<StillPainter>> StillPainter::create(const Scene& scene, c
   return std::unique_ptr<StillPainter>(new StillPainter(std::move(parts)));
 }
 
-Result<std::vector<std::byte>> StillPainter::draw(const ViewSettings& view, const PictureSize& size,
+Result<std::vector<std::byte>> StillPainter::draw(const ViewSettings& view, const ImageSize& size,
                                                   bool text) {
   Parts& p = *parts_;
   Solver& solver = *p.backend.solver;

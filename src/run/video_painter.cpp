@@ -7,7 +7,7 @@
 
 namespace aspic {
 
-Result<std::unique_ptr<VideoPainter>> VideoPainter::create(gl::Context& context, const PictureOutput& output,
+Result<std::unique_ptr<VideoPainter>> VideoPainter::create(gl::Context& context, const ImageOutput& output,
                                                            std::vector<RenderedRun> runs,
                                                            std::vector<std::unique_ptr<FrameSink>> sinks) {
   std::unique_ptr<VideoPainter> v(new VideoPainter(context));

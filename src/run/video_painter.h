@@ -23,7 +23,7 @@ class VideoPainter {
  public:
   /// The context, and what the runs refer to, must outlive it. Errors: those of FramePainter::create() and
   /// Recording::start().
-  static Result<std::unique_ptr<VideoPainter>> create(gl::Context& context, const PictureOutput& output,
+  static Result<std::unique_ptr<VideoPainter>> create(gl::Context& context, const ImageOutput& output,
                                                       std::vector<RenderedRun> runs,
                                                       std::vector<std::unique_ptr<FrameSink>> sinks);
 

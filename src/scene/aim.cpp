@@ -19,19 +19,19 @@ struct Frame {
   Vec3 low = {far, far, far}, high = {-far, -far, -far};
 
   bool empty() const { return !(low.x <= high.x); }
-  Vec3 centre() const { return 0.5 * (low + high); }
+  Vec3 center() const { return 0.5 * (low + high); }
   void add(const Vec3& x, double radius = 0.0) {
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], x[axis] - radius);
       high[axis] = std::max(high[axis], x[axis] + radius);
     }
   }
-  /// A box with these edges, turned about its centre.
-  void add(const Vec3& centre, const Vec3& edges, const RotationSettings& rotation) {
+  /// A box with these edges, turned about its center.
+  void add(const Vec3& center, const Vec3& edges, const RotationSettings& rotation) {
     const Rotation turned(rotation.axis, rotation.angle);
     for (const double x : {-0.5, 0.5})
       for (const double y : {-0.5, 0.5})
-        for (const double z : {-0.5, 0.5}) add(centre + turned({x * edges.x, y * edges.y, z * edges.z}));
+        for (const double z : {-0.5, 0.5}) add(center + turned({x * edges.x, y * edges.y, z * edges.z}));
   }
   std::vector<Vec3> corners() const {
     std::vector<Vec3> all;
@@ -76,7 +76,7 @@ double distance_to(const std::vector<Terrain>& terrain, const Vec3& x) {
 void add_landing(Frame& box, const std::vector<Terrain>& terrain, const Vec3& down) {
   constexpr double farthest = 1.5, close = 1e-3;
   const double size = length(box.high - box.low);
-  Vec3 x = box.centre() + 0.5 * std::abs(dot(box.high - box.low, down)) * down;
+  Vec3 x = box.center() + 0.5 * std::abs(dot(box.high - box.low, down)) * down;
   double way = 0.0;
   for (int i = 0; i < 256 && way <= farthest * size; ++i) {
     const double free = distance_to(terrain, x);
@@ -86,10 +86,10 @@ void add_landing(Frame& box, const std::vector<Terrain>& terrain, const Vec3& do
   }
 }
 
-/// Of the box, as a share of half the picture: a picture of 4 : 3 shows it from side to side too.
+/// Of the box, as a share of half the image: an image of 4 : 3 shows it from side to side too.
 constexpr double body_share = 0.5, frame_share = 0.8, aspect = 4.0 / 3.0;
 
-/// From the target, as far as the eye has to be for the box to take that share of the picture [m].
+/// From the target, as far as the eye has to be for the box to take that share of the image [m].
 double distance_for(const Frame& box, const Vec3& target, const Vec3& towards_eye, double slope,
                     double share) {
   const Vec3 aside = cross(Vec3{0.0, 1.0, 0.0}, towards_eye), right = aside / length(aside),
@@ -122,7 +122,7 @@ void aim_at_bodies(Scene& scene) {
   Frame all = bodies;
   const Vec3& gravity = scene.model.simulation.gravity;
   if (const double g = length(gravity); g > 0.0 && !terrain.empty()) add_landing(all, terrain, gravity / g);
-  const Vec3 target = all.centre();
+  const Vec3 target = all.center();
   const double slope = std::tan(0.5 * degree * scene.view.camera.fov);
   // From a little above, or from as far above as the terrain leaves free.
   for (const double height : {0.25, 0.7, 1.5, 4.0}) {

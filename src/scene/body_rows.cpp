@@ -1,5 +1,5 @@
 #include "aspic/solver.h"
-#include "mesh/voxelise.h"
+#include "mesh/voxelize.h"
 #include "model/bodies.h"
 #include "scene/parameter_rows.h"
 
@@ -89,7 +89,7 @@ Rows cube_rows() {
        of(Belonging::explicit_springs,
           {row("cube[].particle-mass", "kg", positive_mass, FIELD(model.cubes[i].particle_mass),
                "Mass m of each particle."),
-           SPRINGS("cube", "structural", cubes[i].structural, "between axis neighbours"),
+           SPRINGS("cube", "structural", cubes[i].structural, "between axis neighbors"),
            SPRINGS("cube", "shear", cubes[i].shear, "along face and body diagonals"),
            SPRINGS("cube", "bending", cubes[i].bending, "between particles two steps apart along an axis")}),
        MATERIAL_ROWS("cube", MATERIAL,
@@ -113,7 +113,7 @@ Rows net_rows() {
        of(Belonging::explicit_springs,
           {row("goal-net[].particle-mass", "kg", positive_mass, FIELD(model.goal_nets[i].particle_mass),
                "Mass m of each particle."),
-           SPRINGS("goal-net", "structural", goal_nets[i].structural, "between axis neighbours"),
+           SPRINGS("goal-net", "structural", goal_nets[i].structural, "between axis neighbors"),
            fixed(row(
                "goal-net[].shear.stiffness", "N/m", stiffness, FIELD(model.goal_nets[i].shear.stiffness),
                "Stiffness k of the springs along the diagonals of the faces' cells; 0: no such springs.")),
@@ -146,7 +146,7 @@ Rows cloth_rows() {
        of(Belonging::explicit_springs,
           {row("cloth[].particle-mass", "kg", positive_mass, FIELD(model.cloths[i].particle_mass),
                "Mass m of each particle."),
-           SPRINGS("cloth", "structural", cloths[i].structural, "between axis neighbours"),
+           SPRINGS("cloth", "structural", cloths[i].structural, "between axis neighbors"),
            SPRINGS("cloth", "shear", cloths[i].shear, "along the diagonals of the cells"),
            SPRINGS("cloth", "bending", cloths[i].bending,
                    "between particles two steps apart along an axis")}),

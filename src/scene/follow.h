@@ -36,7 +36,7 @@ std::optional<std::string> followed_without(const std::string& name, std::string
 std::string name_of_body(const ModelSettings& settings, const Model& model, std::uint32_t particle);
 std::string name_of_ball(std::uint32_t ball);
 
-/// The mean of a body's particles, or a ball's centre [m]. The followed body must be in the model, the state
+/// The mean of a body's particles, or a ball's center [m]. The followed body must be in the model, the state
 /// of it.
 Vec3 place_of(const Model& model, const State& state, const Followed& followed);
 

@@ -119,7 +119,7 @@ Result<ImportedMesh> import_mesh(const MeshImport& import) {
 Result<std::vector<std::string>> add_mesh(Scene& scene, const std::string& file) {
   ASPIC_TRY(const MeshFile mesh, load_mesh(file));
   const Vec3 extent = finite_extent(mesh.mesh);
-  VoxelisationSettings how;
+  VoxelizationSettings how;
   how.cells = usual_mesh_cells;
   how.height = height_among(extent, longest_extent(scene.model));
   VoxelsSettings body;

@@ -36,7 +36,7 @@ Result<ImportedMesh> import_mesh(const MeshImport& import);
 
 /// Adds the cells inside a mesh file, or a mesh that is built in, to a scene as one more body with the mesh
 /// as its skin, where it is in nobody's way: usual_mesh_cells along its longest edge, the largest piece, of a
-/// material stiff enough to carry itself. The file's numbers are metres unless the body would be more than
+/// material stiff enough to carry itself. The file's numbers are meters unless the body would be more than
 /// ten times as long or short as what there is: then it becomes as long. Returns what was repaired and made,
 /// a sentence each without a full stop. Errors: as load_mesh() and take_mesh(); nothing changes.
 Result<std::vector<std::string>> add_mesh(Scene& scene, const std::string& file);

@@ -31,12 +31,12 @@ CellLayers layers_of(const OccupancyGrid& grid, char full) {
 }  // namespace
 
 Result<std::vector<std::string>> take_mesh(VoxelsSettings& voxels, const MeshFile& file,
-                                           const VoxelisationSettings& how, const std::string& name) {
+                                           const VoxelizationSettings& how, const std::string& name) {
   if (voxels.palette.size() > 1)
     return fail(ErrorCode::scene_rejected,
                 "{}: a mesh has one material, and 'palette' has {}; remove one of them", printable_line(name),
                 voxels.palette.size());
-  ASPIC_TRY(VoxelisedMesh made, voxelise(file.mesh, how, name));
+  ASPIC_TRY(VoxelizedMesh made, voxelize(file.mesh, how, name));
   std::vector<std::string> notes = file.notes;
   for (std::string& sentence : sentences_of(made)) notes.push_back(std::move(sentence));
   const bool named = !voxels.palette.empty() && !voxels.palette.begin()->first.empty();
@@ -67,7 +67,7 @@ T given(const Reader& reader, std::string_view path, std::size_t index, T otherw
 Result<std::vector<std::string>> mesh_into(Reader& reader, std::size_t index, const std::string& path,
                                            const std::function<void(double)>& watch) {
   VoxelsSettings& voxels = reader.scene().model.voxels[index];
-  VoxelisationSettings how;
+  VoxelizationSettings how;
   how.cells = static_cast<int>(given<std::int64_t>(reader, "voxels[].cells", index, usual_mesh_cells));
   how.height = given<double>(reader, "voxels[].height", index, 0.0);
   const std::string up = given<std::string>(reader, "voxels[].up", index, "y");

@@ -5,7 +5,7 @@
 
 #include "aspic/scene.h"
 #include "mesh/read_mesh.h"
-#include "mesh/voxelise.h"
+#include "mesh/voxelize.h"
 
 namespace aspic {
 
@@ -17,8 +17,8 @@ inline constexpr Named<UpAxis> up_axes[] = {{UpAxis::y, "y"}, {UpAxis::z, "z"}};
 
 /// Puts a mesh in the place of a body's layers, size and skin; its cells are of the body's material, or of
 /// the one that its palette has. Returns what was repaired and what came of it, a sentence each without a
-/// full stop. Errors: as voxelise(); a palette of several materials.
+/// full stop. Errors: as voxelize(); a palette of several materials.
 Result<std::vector<std::string>> take_mesh(VoxelsSettings& voxels, const MeshFile& file,
-                                           const VoxelisationSettings& how, const std::string& name);
+                                           const VoxelizationSettings& how, const std::string& name);
 
 }  // namespace aspic

@@ -19,7 +19,7 @@ namespace {
 /// A box around bodies [m].
 struct Extent {
   Vec3 low, high;
-  Vec3 centre() const { return 0.5 * (low + high); }
+  Vec3 center() const { return 0.5 * (low + high); }
   /// Whether one is above or below the other, or in it.
   bool shares_column(const Extent& other) const {
     for (const int axis : {0, 2})
@@ -52,7 +52,7 @@ struct Bodies {
     bodies.state = initial_state(bodies.model, Precision::double_);
     return bodies;
   }
-  /// act(centre, radius) of every particle and ball.
+  /// act(center, radius) of every particle and ball.
   template <class Act>
   void for_each(const Act& act) const {
     for (const Vec3& x : state.position) act(x, 0.0);
@@ -113,8 +113,8 @@ void aim(Scene& scene, const SettingsList& list, std::size_t i, const Extent& ta
   const Parameter* const least = find_parameter(key_of(list, "towards.min"));
   if (!least) return;
   const Vec3 half = 0.25 * (target.high - target.low);
-  least->set(scene, i, Value(target.centre() - half));
-  find_parameter(key_of(list, "towards.max"))->set(scene, i, Value(target.centre() + half));
+  least->set(scene, i, Value(target.center() - half));
+  find_parameter(key_of(list, "towards.max"))->set(scene, i, Value(target.center() + half));
 }
 
 /// The first of its kind throws, or flies, no faster than a cloth at a millisecond a step can take: defaults
@@ -157,8 +157,8 @@ std::optional<double> highest_under(const Bodies& there, const Extent& box) {
     take(extent_of(std::span(there.state.position).subspan(body.first_particle, body.particle_count)));
   for (std::size_t b = 0; b < there.state.ball_position.size(); ++b) {
     const double radius = there.model.balls[b].radius;
-    const Vec3 around = {radius, radius, radius}, &centre = there.state.ball_position[b];
-    take({centre - around, centre + around});
+    const Vec3 around = {radius, radius, radius}, &center = there.state.ball_position[b];
+    take({center - around, center + around});
   }
   return highest;
 }

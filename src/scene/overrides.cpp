@@ -104,7 +104,7 @@ struct Keys {
   std::string_view table;  ///< that the keys are in; empty: the scene itself
   std::string_view example;
 };
-constexpr Keys of_scene = {"", "simulation.timestep=0.002"}, of_view = {"view", "colour=strain"};
+constexpr Keys of_scene = {"", "simulation.timestep=0.002"}, of_view = {"view", "color=strain"};
 
 /// One argument on its way into the scene.
 class Argument {

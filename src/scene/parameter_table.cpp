@@ -191,7 +191,7 @@ Rows view_rows() {
           "Perspective, or orthographic: parallel, with the height of the field of view at the target."),
       draw,
       follow,
-      word<view_colours>("view.colour", FIELD(view.colour), "Quantity to show as the colors of bodies."),
+      word<view_colors>("view.color", FIELD(view.color), "Quantity to show as the colors of bodies."),
       word<cut_insides>("view.cut.inside", FIELD(view.cut.inside),
                         "Inside of bodies in a cut: a filled section in their colors, or the springs in "
                         "front of one; off: no cut."),
@@ -220,8 +220,8 @@ Rows view_rows() {
 
 }  // namespace
 
-std::string_view name_of(ViewColour colour) {
-  return std::ranges::find(view_colours, colour, &Named<ViewColour>::value)->name;
+std::string_view name_of(ViewColor color) {
+  return std::ranges::find(view_colors, color, &Named<ViewColor>::value)->name;
 }
 std::string_view name_of(ScaleMap map) {
   return std::ranges::find(scale_maps, map, &Named<ScaleMap>::value)->name;

@@ -97,9 +97,15 @@ std::optional<Value> Parameter::get(const Scene& scene, std::size_t index) const
 }
 
 const FormerKey* find_former_key(std::string_view path) {
-  static const FormerKey table[] = {{"contact.epsilon", {"contact.distance", "contact.resting-speed"}}};
+  static const FormerKey table[] = {{"contact.epsilon", {"contact.distance", "contact.resting-speed"}},
+                                    {"terrain[].centre", {"terrain[].center"}},
+                                    {"view.colour", {"view.color"}}};
   const auto* const found = std::ranges::find(table, path, &FormerKey::path);
   return found == std::end(table) ? nullptr : found;
+}
+
+std::string_view present_word(std::string_view path, std::string_view word) {
+  return path == "view.scale.map" && word == "grey" ? "gray" : word;
 }
 
 const Parameter* find_parameter(std::string_view path) {

@@ -117,6 +117,8 @@ struct FormerKey {
 };
 /// The row of a path (with [] for indices), or nullptr.
 const FormerKey* find_former_key(std::string_view path);
+/// The word of a key; one that it had before 0.3 is accepted until 0.4.
+std::string_view present_word(std::string_view path, std::string_view word);
 
 /// The row of a path (with [] for indices), or nullptr. A former name means the first key that it sets.
 const Parameter* find_parameter(std::string_view path);

@@ -113,7 +113,7 @@ Converted converted(const Parameter& p, const toml::node& node) {
       break;
     case ParameterType::text:
     case ParameterType::word:
-      if (const auto* x = node.as_string()) return Value(x->get());
+      if (const auto* x = node.as_string()) return Value(std::string(present_word(p.path, x->get())));
       break;
     case ParameterType::words:
       if (array) return gathered(p, *array, std::vector<std::string>(), take_word);
@@ -164,8 +164,11 @@ std::vector<Position> elements_of(const toml::node& node, std::uint32_t source) 
 }
 
 std::string both_names(const FormerKey& former) {
-  return fmt::format("'{}' is the former name of {}, and both are given; remove '{}'", former.path,
-                     fmt::join(former.successors, " and "), former.path);
+  std::vector<std::string> successors;
+  for (const std::string_view path : former.successors) successors.push_back(key_text(*find_parameter(path)));
+  const std::string_view key = former.path.substr(former.path.find('.') + 1);
+  return fmt::format("'{}' is the former name of {}, and both are given; remove '{}'", key,
+                     fmt::join(successors, " and "), key);
 }
 
 /// A legal value of a key of terrain geometry.

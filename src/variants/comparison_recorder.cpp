@@ -11,7 +11,7 @@
 namespace aspic {
 
 Result<std::unique_ptr<ComparisonRecorder>> ComparisonRecorder::create(
-    gl::Context& context, const PictureOutput& output, std::vector<RecordedRun> runs,
+    gl::Context& context, const ImageOutput& output, std::vector<RecordedRun> runs,
     std::vector<std::unique_ptr<FrameSink>> sinks) {
   std::unique_ptr<ComparisonRecorder> r(new ComparisonRecorder());
   r->output_ = output;
@@ -68,7 +68,7 @@ RunView ComparisonRecorder::view_of(const Part& part, const std::optional<Diverg
   // One legend for all that share a scale.
   const ViewSettings& last = parts_.back().run.scene->view;
   const bool own_scale =
-      view.scale != last.scale || view.colour != last.colour || (view.arrows.any() && !view.arrow_scale);
+      view.scale != last.scale || view.color != last.color || (view.arrows.any() && !view.arrow_scale);
   shown.legend = output_.text && (own_scale || &part == &parts_.back());
   if (view.arrows.any())
     shown.arrows = arrows_of(model, part.copy, view.arrows, part.run.backend->solver->inputs());

@@ -28,7 +28,7 @@ class ComparisonRecorder {
  public:
   /// Renders in `context`, which all backends that need one share. The sinks have the size of `output`.
   /// 1 to most_compared runs. Errors: as Recorder::create().
-  static Result<std::unique_ptr<ComparisonRecorder>> create(gl::Context& context, const PictureOutput& output,
+  static Result<std::unique_ptr<ComparisonRecorder>> create(gl::Context& context, const ImageOutput& output,
                                                             std::vector<RecordedRun> runs,
                                                             std::vector<std::unique_ptr<FrameSink>> sinks);
 
@@ -63,7 +63,7 @@ class ComparisonRecorder {
   Status take_state(Part& part, std::uint64_t step);
   RunView view_of(const Part& part, const std::optional<Divergence>& divergence) const;
 
-  PictureOutput output_;
+  ImageOutput output_;
   std::vector<Part> parts_;
   double simulate_seconds_ = 0.0;
   std::unique_ptr<VideoPainter> video_;

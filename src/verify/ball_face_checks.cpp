@@ -11,11 +11,11 @@ namespace aspic::verify {
 namespace {
 
 /// A cube of eight particles, 1 m along an edge.
-CubeSettings coarse_body(const Vec3& centre) {
+CubeSettings coarse_body(const Vec3& center) {
   CubeSettings cube;
   cube.particles_per_edge = 2;
   cube.edge_length = 1.0;
-  cube.position = centre;
+  cube.position = center;
   cube.particle_mass = 5.0;
   cube.structural = cube.shear = cube.bending = {4000.0, 60.0};
   return cube;

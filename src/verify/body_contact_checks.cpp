@@ -34,7 +34,7 @@ ModelSettings stack(int n, int count, bool pinned, Integrator integrator) {
   return settings;
 }
 
-Vec3 centre(const Model& model, const State& state, std::size_t body) {
+Vec3 center(const Model& model, const State& state, std::size_t body) {
   return mean_of(state.position, model.bodies[body]);
 }
 
@@ -47,7 +47,7 @@ Result<Rested> rested(const Subject& subject, const Model& model, Precision prec
   ASPIC_TRY(auto solver, subject.reference(model, precision));
   ASPIC_TRY(const State nine, run(*solver, steps_of(model, 9.0)));
   ASPIC_TRY(const State ten, run(*solver, steps_of(model, 1.0)));
-  return Rested{ten, length(centre(model, ten, 1) - centre(model, nine, 1))};
+  return Rested{ten, length(center(model, ten, 1) - center(model, nine, 1))};
 }
 
 Result<Finding> rests(const Subject& subject, Integrator integrator) {
@@ -71,7 +71,7 @@ Result<Finding> stands(const Subject& subject, int count, bool pinned) {
   const double speed = measure(model, end).max_speed;
   double lateral = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Vec3 at = centre(model, end, b);
+    const Vec3 at = center(model, end, b);
     lateral = std::max({lateral, std::abs(at.x), std::abs(at.z)});
   }
   return Finding{speed <= rest_double && lateral <= 2e-5,
@@ -84,7 +84,7 @@ Result<Finding> buckles(const Subject& subject) {
   ASPIC_TRY(auto model, build_model(stack(3, 6, true, Integrator::symplectic_euler)));
   ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
   const auto lean = [&](const State& state) {
-    const Vec3 at = centre(model, state, 5);
+    const Vec3 at = center(model, state, 5);
     return std::hypot(at.x, at.z);
   };
   ASPIC_TRY(auto early, run(*solver, steps_of(model, 8.0)));
@@ -112,7 +112,7 @@ Result<Finding> sticks(const Subject& subject, Integrator integrator) {
   std::array<double, 3> x = {};
   for (std::size_t n = 0; const double seconds : {1.0, 6.0, 1.0}) {
     ASPIC_TRY(auto at, run(*solver, steps_of(model, seconds)));
-    x[n++] = centre(model, at, 1).x;
+    x[n++] = center(model, at, 1).x;
   }
   const double crept = std::abs(x[2] - x[0]), last = std::abs(x[2] - x[1]);
   return Finding{crept <= 1e-4 && last <= 2e-6, fmt::format("{:.2g} and {:.2g} m", crept, last)};
@@ -156,7 +156,7 @@ Result<Finding> sticks_solved(const Subject& subject) {
   for (std::size_t n = 0; const double seconds : {5.0, 1.0}) {
     ASPIC_TRY(auto at, run(*solver, steps_of(model, seconds)));
     gained = std::max(gained, measure(model, at).total() - start);
-    x[n++] = centre(model, at, 1).x;
+    x[n++] = center(model, at, 1).x;
   }
   const double crept = std::abs(x[1] - x[0]);
   return Finding{crept <= 5e-6 && gained <= 0.0 && unsolved(*solver) == 0,

@@ -9,23 +9,23 @@ namespace {
 constexpr std::uint64_t steps = 20000;
 
 struct Totals {
-  Vec3 momentum, angular;  ///< [N·s], [N·m·s] about the centre of mass
+  Vec3 momentum, angular;  ///< [N·s], [N·m·s] about the center of mass
   double speed = 0.0;      ///< Σ m|v| [N·s]
 };
 
 Totals totals(const Model& model, const State& state) {
   Totals t;
-  Vec3 centre;
+  Vec3 center;
   double mass = 0.0;
   for (std::size_t i = 0; i < state.position.size(); ++i) {
     mass += model.mass[i];
-    centre = centre + model.mass[i] * state.position[i];
+    center = center + model.mass[i] * state.position[i];
     t.momentum = t.momentum + model.mass[i] * state.velocity[i];
     t.speed += model.mass[i] * length(state.velocity[i]);
   }
-  centre = centre / mass;
+  center = center / mass;
   for (std::size_t i = 0; i < state.position.size(); ++i) {
-    t.angular = t.angular + model.mass[i] * cross(state.position[i] - centre, state.velocity[i]);
+    t.angular = t.angular + model.mass[i] * cross(state.position[i] - center, state.velocity[i]);
   }
   return t;
 }
@@ -66,7 +66,7 @@ void add_conservation_checks(std::vector<Check>& checks) {
       const bool bounded = traits.keeps_angular_momentum;
       checks.push_back(
           {fmt::format("conservation/{}/{}", name_of(precision), name_of(integrator)),
-           "free spinning 4³ cube, 20,000 steps: |ΔP|/Σm|v| and |ΔL|/|L| about the centre of mass",
+           "free spinning 4³ cube, 20,000 steps: |ΔP|/Σm|v| and |ΔL|/|L| about the center of mass",
            fmt::format("P {}, L {}", at_most_text(momentum_bound),
                        bounded ? at_most_text(angular_bound) : "no bound"),
            !traits.long_steps && !exact, false, [=](const Subject& subject) -> Result<Finding> {

@@ -10,11 +10,11 @@ namespace aspic::verify {
 inline constexpr double contact_spacing = 4.0 / 9;  ///< s of the default cube [m]
 
 /// A box of so many particles at the default cube's spacing.
-inline CubeSettings box_at(const std::array<int, 3>& particles, const Vec3& centre) {
+inline CubeSettings box_at(const std::array<int, 3>& particles, const Vec3& center) {
   CubeSettings box;
   box.particles = particles;
   box.edge_length = (std::ranges::max(particles) - 1) * contact_spacing;
-  box.position = centre;
+  box.position = center;
   return box;
 }
 

@@ -109,7 +109,7 @@ Result<Finding> file_order(const Subject& subject) {
   return at_most(worst, 8 * 5 * epsilon_double, "m/s");
 }
 
-/// A particle that starts half a metre below a surface ends its first step on it.
+/// A particle that starts half a meter below a surface ends its first step on it.
 Result<Finding> projection(const Subject& subject) {
   double worst = 0.0, largest = 0.0;
   for (const Integrator integrator : all_integrators) {

@@ -15,11 +15,11 @@
 
 namespace aspic::verify {
 
-ModelSettings cube_settings(int particles_per_edge, const Vec3& centre) {
+ModelSettings cube_settings(int particles_per_edge, const Vec3& center) {
   ModelSettings settings;
   CubeSettings cube;
   cube.particles_per_edge = particles_per_edge;
-  cube.position = centre;
+  cube.position = center;
   settings.cubes.push_back(cube);
   return settings;
 }
@@ -169,10 +169,10 @@ Finding BitComparison::finding() const {
   if (same()) return {true, text};
   if (!std::isfinite(share_))
     return {false,
-            fmt::format("{}, {:.3g} in metres and m/s, for which the device's arithmetic is no reason. {}",
+            fmt::format("{}, {:.3g} in meters and m/s, for which the device's arithmetic is no reason. {}",
                         text, absolute_, arithmetic_)};
   return {share_ <= 1.0, fmt::format("single steps {:.3g} ULP of the largest component, {:.3g} allowed; {}, "
-                                     "{:.3g} in metres and m/s. {}",
+                                     "{:.3g} in meters and m/s. {}",
                                      step_.off, step_.allowed, text, absolute_, arithmetic_)};
 }
 

@@ -16,8 +16,8 @@ inline constexpr std::array both_contact_models = {ContactModel::coulomb, Contac
 inline constexpr double epsilon_double = 2.220446049250313e-16;
 inline constexpr double epsilon_single = 1.1920929e-7;
 
-/// Settings of one cube of edge 4 m with the default springs, its centre at `centre`; no terrain.
-ModelSettings cube_settings(int particles_per_edge, const Vec3& centre = {0.0, 9.0, 0.0});
+/// Settings of one cube of edge 4 m with the default springs, its center at `center`; no terrain.
+ModelSettings cube_settings(int particles_per_edge, const Vec3& center = {0.0, 9.0, 0.0});
 
 /// A tilted cube that reaches the terrain of this shape within the first tenth of 2,000 steps, or of 60 steps
 /// of 0.01 s where the method is solved.

@@ -18,9 +18,9 @@ namespace {
 constexpr double bound_single = 1e-3, bound_double = 1e-6;  // [m/s]
 constexpr double bottom_bound = 1e-5;                       // [m]
 
-Result<Model> dropped_cube(int particles_per_edge, const Vec3& centre, Integrator integrator,
+Result<Model> dropped_cube(int particles_per_edge, const Vec3& center, Integrator integrator,
                            double angle = 0.0) {
-  ModelSettings settings = cube_settings(particles_per_edge, centre);
+  ModelSettings settings = cube_settings(particles_per_edge, center);
   settings.cubes[0].rotation = {{1.0, 0.0, 1.0}, angle};
   settings.terrain.push_back({});
   settings.simulation.integrator = integrator;

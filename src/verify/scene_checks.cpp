@@ -16,9 +16,9 @@ double max_speed(const State& state) {
   return fastest;
 }
 
-/// Largest depth without the ground as a share of h·max|v|, and in metres; and whether anything came near.
+/// Largest depth without the ground as a share of h·max|v|, and in meters; and whether anything came near.
 struct Depth {
-  double share = 0.0, metres = 0.0;
+  double share = 0.0, meters = 0.0;
   bool contact = false;
 };
 
@@ -41,7 +41,7 @@ Result<Depth> depth_without_ground(const Subject& subject, const Model& model, s
     if (depth > rounding) {
       const double reach = model.simulation.timestep * std::max(max_speed(now), max_speed(before));
       worst.share = std::max(worst.share, (depth - rounding) / reach);
-      worst.metres = std::max(worst.metres, depth);
+      worst.meters = std::max(worst.meters, depth);
     }
     ASPIC_TRY(now, run(*solver, 1));
   }
@@ -54,7 +54,7 @@ Result<Finding> depth(const Subject& subject, const std::string& scene, std::vec
   ASPIC_TRY(auto model, build_model(loaded.model));
   ASPIC_TRY(auto worst, depth_without_ground(subject, model, steps));
   if (!worst.contact) return Finding{false, "nothing touched the ground"};
-  return Finding{worst.share <= 1.0, fmt::format("{:.4f} ({:.3g} mm)", worst.share, 1000 * worst.metres)};
+  return Finding{worst.share <= 1.0, fmt::format("{:.4f} ({:.3g} mm)", worst.share, 1000 * worst.meters)};
 }
 
 Result<Finding> course_depth(const Subject& subject) {

@@ -187,7 +187,7 @@ Result<Finding> vibration(const Subject& subject, std::size_t mode) {
                   std::sqrt(std::sqrt(limit) * solid_frequency(mode)), std::sqrt(solid_frequency(mode)))};
 }
 
-/// A body of two materials with a hole, a hinge and a piece apart, which flies and spins: how far its centre
+/// A body of two materials with a hole, a hinge and a piece apart, which flies and spins: how far its center
 /// of mass comes off its parabola [m].
 Result<Finding> free_fall(const Subject& subject, Integrator integrator) {
   ModelSettings settings;
@@ -201,7 +201,7 @@ Result<Finding> free_fall(const Subject& subject, Integrator integrator) {
   voxels.pieces = Pieces::all;
   ASPIC_TRY(auto model, build_model(settings));
   State start = shaken(model, 0.0, 0.5, 30);
-  const auto centre_of = [&](const std::vector<Vec3>& of) {
+  const auto center_of = [&](const std::vector<Vec3>& of) {
     Vec3 sum;
     double mass = 0.0;
     for (std::size_t i = 0; i < of.size(); ++i) {
@@ -215,8 +215,8 @@ Result<Finding> free_fall(const Subject& subject, Integrator integrator) {
   // Each method moves a particle without springs as its powers of the step say: the drift is exact but for
   // the order of the method, so velocities are compared.
   const double time = static_cast<double>(steps) * settings.simulation.timestep;
-  const Vec3 expected = centre_of(start.velocity) + time * model.simulation.gravity;
-  return at_most(length(centre_of(end.velocity) - expected), 1e-11, "m/s");
+  const Vec3 expected = center_of(start.velocity) + time * model.simulation.gravity;
+  return at_most(length(center_of(end.velocity) - expected), 1e-11, "m/s");
 }
 
 /// A spring is as stiff, and as damped, as its cells are on average. So what the springs of a body of two
@@ -275,7 +275,7 @@ void add_voxel_checks(std::vector<Check>& checks) {
                     at_most_text(1e-13, ""), true, false, mixture});
   add_for_each_integrator(
       checks, "voxels/free-fall",
-      "two materials, a hole, a hinge and a piece apart, 1,000 steps: velocity of the centre of "
+      "two materials, a hole, a hinge and a piece apart, 1,000 steps: velocity of the center of "
       "mass against gt",
       at_most_text(1e-11, "m/s"), true, free_fall);
 }

@@ -158,7 +158,7 @@ ModelSettings beam() {
 
 using Samples = std::vector<std::vector<SpringNow>>;
 
-/// The most that second differences of f(sample) come to between two samples: where these are neighbours,
+/// The most that second differences of f(sample) come to between two samples: where these are neighbors,
 /// those at both are near that.
 template <class F>
 double largest_bend(const Samples& samples, std::size_t from, std::size_t to, const F& f) {

@@ -66,7 +66,7 @@ TEST(BodyOverlap, IsNoneForBodiesInContactOrWithoutContact) {
 }
 
 TEST(BodyOverlap, WhatIsDeeperThanASpacingIsLocked) {
-  // A small cube in the middle of a large one, turned: its centre is 2 m below the surface.
+  // A small cube in the middle of a large one, turned: its center is 2 m below the surface.
   CubeSettings small = cube_at({0.1, 0.05, 0.0}, 1.0);
   small.rotation = {{1.0, 2.0, 0.5}, 40.0};
   const auto found = overlaps({cube_at({}, 4.0), small});

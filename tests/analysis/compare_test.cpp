@@ -16,7 +16,7 @@ State three_particles(Precision precision) {
   return state;
 }
 
-TEST(Ulp, NeighboursAreOneApart) {
+TEST(Ulp, NeighborsAreOneApart) {
   EXPECT_EQ(ulp_distance(1.0f, std::nextafter(1.0f, 2.0f)), 1u);
   EXPECT_EQ(ulp_distance(std::nextafter(-1.0, -2.0), -1.0), 1u);
   EXPECT_EQ(ulp_distance(1.0f, 2.0f), 1u << 23);
@@ -54,7 +54,7 @@ TEST(Compare, BallsAreComparedToo) {
 TEST(Compare, FindsTheLargestDifferenceOfEachKind) {
   const State a = three_particles(Precision::single);
   State b = a;
-  b.position[1].y = 5.5;  // large in metres
+  b.position[1].y = 5.5;  // large in meters
   b.position[2].z = std::nextafter(9.0f, 10.0f);
   b.velocity[0].x = 1e-30f;  // large in ULPs only
   b.velocity[2].z = -3.25;

@@ -47,7 +47,7 @@ TEST(Energy, SlackCordHoldsNone) {
   EXPECT_EQ(measure(pair(true), state_at(5.0)).elastic, 36.0);
 }
 
-/// Elastic energy of a cube of n³ particles a metre apart, k = 1, stretched by a share along a direction.
+/// Elastic energy of a cube of n³ particles a meter apart, k = 1, stretched by a share along a direction.
 double stretched(int n, const Vec3& along, double share) {
   ModelSettings settings;
   CubeSettings& cube = settings.cubes.emplace_back();

@@ -25,7 +25,7 @@ ModelSettings cube_and_net() {
   settings.goal_nets.push_back(net);
   TerrainSettings globe;
   globe.shape = TerrainShape::sphere;
-  globe.geometry["centre"] = Vec3{0.0, -1.0, 0.0};
+  globe.geometry["center"] = Vec3{0.0, -1.0, 0.0};
   settings.terrain.push_back(globe);
   return settings;
 }

@@ -31,7 +31,7 @@ Model model_of(const CubeSettings& cube) {
   return std::move(model).value();
 }
 
-/// Spectral radius of the step matrix of an integrator for the whole linearised model, its stages applied to
+/// Spectral radius of the step matrix of an integrator for the whole linearized model, its stages applied to
 /// dense K and C.
 double spectral_radius(const Model& model, Integrator integrator, double h) {
   const auto dof = 3 * static_cast<Eigen::Index>(model.particle_count());
@@ -281,7 +281,7 @@ TEST(Stability, GershgorinBoundIsAboveTheEigenvalue) {
     cube.shear.stiffness = 30.0;
     cube.bending.stiffness = 9000.0;
     const Model model = model_of(cube);
-    const LinearisedBody body(model, 0, model.particle_count());
+    const LinearizedBody body(model, 0, model.particle_count());
     WorkBudget work(1000000000);
     for (const auto& [k, c] : {std::pair(1.0, 0.0), std::pair(0.0, 1.0), std::pair(1e-6, 2e-3)}) {
       const LargestEigenvalue largest = body.largest_eigenvalue(k, c, 1e-7, 1000, work);

@@ -16,8 +16,8 @@ namespace {
 
 class AppWindow : public Stage {};
 
-/// How many different colours the scene's part of the picture has, at most `most`.
-std::size_t colours(const std::vector<unsigned char>& rgb, std::size_t most) {
+/// How many different colors the scene's part of the image has, at most `most`.
+std::size_t colors(const std::vector<unsigned char>& rgb, std::size_t most) {
   std::set<std::array<unsigned char, 3>> seen;
   for (std::size_t i = 0; i + 2 < rgb.size() && seen.size() < most; i += 3)
     seen.insert({rgb[i], rgb[i + 1], rgb[i + 2]});
@@ -34,7 +34,7 @@ TEST_F(AppWindow, EveryBuiltInSceneOpensAndDraws) {
     frames(2);
     const auto now = pixels();
     // Panels alone have a few dozen; sky, ground and jelly have thousands.
-    EXPECT_GE(colours(now, 2000), 2000u) << scene.name;
+    EXPECT_GE(colors(now, 2000), 2000u) << scene.name;
     EXPECT_NE(now, before) << scene.name;
     before = now;
     type(U']');
@@ -191,7 +191,7 @@ TEST_F(AppWindow, ScreenshotsAreNeverOverwritten) {
   const auto second = read_file((directory() / "aspic-cube-plane-0002.png").string());
   ASSERT_TRUE(first.ok() && second.ok());
   EXPECT_EQ(first->substr(1, 3), "PNG");
-  EXPECT_GT(first->size(), 50000u) << "a picture with content does not compress to nothing";
+  EXPECT_GT(first->size(), 50000u) << "an image with content does not compress to nothing";
 }
 
 TEST_F(AppWindow, CameraTravelsAsText) {

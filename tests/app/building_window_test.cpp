@@ -258,7 +258,7 @@ TEST_F(Building, ActuatorsAreAddedSteeredAndRemoved) {
   frames(2);
   const Box slider = widgets().at("actuator/0/input");
   const double middle = 0.5 * (slider.left + slider.right);
-  drag(GLFW_MOUSE_BUTTON_LEFT, middle, slider.centre_y(), slider.right - middle, 0.0);
+  drag(GLFW_MOUSE_BUTTON_LEFT, middle, slider.center_y(), slider.right - middle, 0.0);
   frames(3);
   const std::vector<double> channels = simulation().inputs().channels;
   ASSERT_EQ(channels.size(), 1u);
@@ -347,8 +347,8 @@ TEST_F(Building, AMeshThatIsDroppedIsABodyAboveWhatIsThere) {
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   frames(2);
   EXPECT_TRUE(settings().voxels.empty());
-  // In millimetres it would be a thousand times as large.
-  app().drop({file("millimetres.obj", tetrahedron(3000.0))});
+  // In millimeters it would be a thousand times as large.
+  app().drop({file("millimeters.obj", tetrahedron(3000.0))});
   frames(3);
   ASSERT_EQ(settings().voxels.size(), 1u);
   EXPECT_THAT(notice(), HasSubstr("scaled"));

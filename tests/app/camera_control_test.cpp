@@ -68,7 +68,7 @@ TEST(CameraControl, FramesASphereWhollyInsideTheView) {
   }
 }
 
-TEST(CameraControl, EasesMonotonicallyWhateverThePictureRate) {
+TEST(CameraControl, EasesMonotonicallyWhateverTheFrameRate) {
   CameraControl often(home), seldom(home);
   often.zoom(5.0);
   seldom.zoom(5.0);
@@ -107,7 +107,7 @@ TEST(CameraControl, LooksFromADirectionTheShortWayRound) {
     for (int i = 0; i < 1000; ++i) {
       const Vec3 before = camera.shown().position;
       if (!camera.update(1.0 / 60.0)) break;
-      // Half a turn at most, so an easing's first picture goes less than this part of the circle.
+      // Half a turn at most, so an easing's first image goes less than this part of the circle.
       EXPECT_LT(length(camera.shown().position - before), distance);
     }
     const CameraSettings shown = camera.shown();

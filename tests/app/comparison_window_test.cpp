@@ -109,16 +109,16 @@ TEST_F(Comparison, EachRunHasTheBitsOfTheRunAloneAtTheSameTime) {
   open("cube-plane", {small, low});
   compare({"h", "0.0013"});
   simulation().set_running(true);
-  int pictures = 0;
+  int images = 0;
   double last = 0.0;
   frames_until([&] {
     EXPECT_NEAR(comparison().shown_time(1), comparison().shown_time(0), 0.5 * 0.0013 * (1.0 + 1e-9));
     EXPECT_GE(comparison().shown_time(0), last);
-    if (comparison().shown_time(0) > last) ++pictures;
+    if (comparison().shown_time(0) > last) ++images;
     last = comparison().shown_time(0);
     return last > 0.3;
   });
-  EXPECT_GT(pictures, 2);
+  EXPECT_GT(images, 2);
   simulation().set_running(false);
   settled();
   EXPECT_EQ(hash(0), hash_alone(0));
@@ -126,7 +126,7 @@ TEST_F(Comparison, EachRunHasTheBitsOfTheRunAloneAtTheSameTime) {
   EXPECT_NEAR(run(1).time(), run(0).time(), 0.5 * 0.0013 * (1.0 + 1e-9));
 }
 
-TEST_F(Comparison, EachPictureFollowsItsOwnRunsBody) {
+TEST_F(Comparison, EachImageFollowsItsOwnRunsBody) {
   open("cube-plane", {small, "view.follow=cube"});
   compare({"simulation.gravity", "[0,-3,0]"});
   run_to(300);
@@ -139,29 +139,29 @@ TEST_F(Comparison, EachPictureFollowsItsOwnRunsBody) {
   EXPECT_EQ(app().view.offset(), moved(0));
   ASSERT_EQ(app().view.others.size(), 1u);
   EXPECT_EQ(app().view.others[0].offset, moved(1));
-  // What the middles of both pictures show lies as far apart.
+  // What the middles of both images show lies as far apart.
   const auto& boxes = comparison_view().boxes();
-  const Vec3 first = app().view.sight(boxes[0].centre_x(), boxes[0].centre_y()).origin;
-  const Vec3 second = app().view.sight(boxes[1].centre_x(), boxes[1].centre_y()).origin;
+  const Vec3 first = app().view.sight(boxes[0].center_x(), boxes[0].center_y()).origin;
+  const Vec3 second = app().view.sight(boxes[1].center_x(), boxes[1].center_y()).origin;
   EXPECT_NEAR(second.y - first.y, moved(1).y - moved(0).y, 1e-4) << "matrices are of single precision";
 }
 
-TEST_F(Comparison, ColoursHaveOneRangeInAllPictures) {
-  open("cube-plane", {small, low, "view.colour=strain", "view.scale.range=automatic"}, "reference");
+TEST_F(Comparison, ColorsHaveOneRangeInAllImages) {
+  open("cube-plane", {small, low, "view.color=strain", "view.scale.range=automatic"}, "reference");
   compare({"k", "9000"});
   run_to(250);
   frames(3);
-  const QuantityRange own = app().picture.own_range(), shown = app().picture.range();
-  ASSERT_TRUE(app().picture.common_range.has_value());
-  EXPECT_EQ(shown, *app().picture.common_range);
-  EXPECT_EQ(comparison_view().picture(1).range(), shown);
-  const QuantityRange other = comparison_view().picture(1).own_range();
+  const QuantityRange own = app().image.own_range(), shown = app().image.range();
+  ASSERT_TRUE(app().image.common_range.has_value());
+  EXPECT_EQ(shown, *app().image.common_range);
+  EXPECT_EQ(comparison_view().image(1).range(), shown);
+  const QuantityRange other = comparison_view().image(1).own_range();
   EXPECT_NE(own, other) << "else there is nothing to share";
   EXPECT_EQ(shown, widest(own, other));
   comparison_view().leave();
   frames(3);
-  EXPECT_FALSE(app().picture.common_range.has_value());
-  EXPECT_EQ(app().picture.range(), app().picture.own_range());
+  EXPECT_FALSE(app().image.common_range.has_value());
+  EXPECT_EQ(app().image.range(), app().image.own_range());
 }
 
 TEST_F(Comparison, TimeTravelTakesAllRunsAlong) {
@@ -353,22 +353,22 @@ TEST_F(Comparison, NamesAndFiguresOfFourRunsLieApart) {
 
 TEST_F(Comparison, RunsAreToldApartByFrameTintAndALineThatGrowsWithTheText) {
   open("cube-plane", {small, "cube[0].position=[0,3,0]"});
-  EXPECT_FALSE(app().picture.tint.has_value());
+  EXPECT_FALSE(app().image.tint.has_value());
   resize(roomy[0], roomy[1]);
   compare({"integrator", "implicit-euler"});
   frames(2);
-  EXPECT_EQ(app().picture.tint, run_tint(0));
-  EXPECT_EQ(comparison_view().picture(1).tint, run_tint(1));
-  // The frame is the run's colour along the edge of its picture.
-  const Image picture = image();
+  EXPECT_EQ(app().image.tint, run_tint(0));
+  EXPECT_EQ(comparison_view().image(1).tint, run_tint(1));
+  // The frame is the run's color along the edge of its image.
+  const Image window = image();
   for (std::size_t i = 0; i < 2; ++i) {
     const app::Box& box = comparison_view().boxes()[i];
-    const auto x = static_cast<std::size_t>(box.left) + 1, y = static_cast<std::size_t>(box.centre_y());
-    const std::size_t at = 3 * (y * static_cast<std::size_t>(picture.width) + x);
-    const std::uint32_t colour = app::ComparisonView::packed_colour(i);
+    const auto x = static_cast<std::size_t>(box.left) + 1, y = static_cast<std::size_t>(box.center_y());
+    const std::size_t at = 3 * (y * static_cast<std::size_t>(window.width) + x);
+    const std::uint32_t color = app::ComparisonView::packed_color(i);
     for (std::size_t channel = 0; channel < 3; ++channel)
-      EXPECT_NEAR(std::to_integer<int>(picture.rgb[at + channel]),
-                  static_cast<int>((colour >> (8 * channel)) & 255u), 3)
+      EXPECT_NEAR(std::to_integer<int>(window.rgb[at + channel]),
+                  static_cast<int>((color >> (8 * channel)) & 255u), 3)
           << i << " " << channel;
   }
   const app::Box label = widgets().at("comparison/1/label");
@@ -379,9 +379,9 @@ TEST_F(Comparison, RunsAreToldApartByFrameTintAndALineThatGrowsWithTheText) {
   EXPECT_NEAR(larger.bottom - larger.top, 1.5 * (label.bottom - label.top), 3.0);
 }
 
-/// RGB of a picture of a film, rows from the top.
-std::string film_pixels(const std::filesystem::path& film, int number) {
-  const std::string name = fmt::format("{}/frame-{:06}", film.string(), number);
+/// RGB of an image of a video, rows from the top.
+std::string video_pixels(const std::filesystem::path& video, int number) {
+  const std::string name = fmt::format("{}/frame-{:06}", video.string(), number);
   const std::string command =
       fmt::format("ffmpeg -v error -y -i {0}.png -f rawvideo -pix_fmt rgb24 {0}.rgb", name);
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
@@ -390,27 +390,27 @@ std::string film_pixels(const std::filesystem::path& film, int number) {
   return bytes.ok() ? *bytes : "";
 }
 
-TEST_F(Comparison, AFilmShowsAllRunsByNameAsEachIsDrawnAlone) {
+TEST_F(Comparison, AVideoShowsAllRunsByNameAsEachIsDrawnAlone) {
   open("cube-plane", {small, low});
   compare({"integrator", "implicit-euler"});
-  app().film.settings = {find_film_format("png"), 20.0, false, "film"};
-  app().film.settings.states = &state_format_of("export", "film.pvd");
+  app().video.settings = {find_video_format("png"), 20.0, false, "video"};
+  app().video.settings.states = &state_format_of("export", "video.pvd");
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
-  ASSERT_TRUE(app().film.recording()) << app().messages.notice()->text;
-  const PictureSize size = app().film.recording()->options().size;
+  ASSERT_TRUE(app().video.recording()) << app().messages.notice()->text;
+  const ImageSize size = app().video.recording()->options().size;
   EXPECT_EQ(size.width, std::lround(app().view.whole.right - app().view.whole.left));
-  EXPECT_EQ(app().film.recording()->frames(), 1u) << "the start, at once";
+  EXPECT_EQ(app().video.recording()->frames(), 1u) << "the start, at once";
   simulation().set_running(true);
-  frames_until([&] { return app().film.recording()->frames() >= 4; });
-  EXPECT_EQ(simulation().step(), 150u) << "the motion waits for each picture";
+  frames_until([&] { return app().video.recording()->frames() >= 4; });
+  EXPECT_EQ(simulation().step(), 150u) << "the motion waits for each image";
   EXPECT_DOUBLE_EQ(comparison().shown_time(1), comparison().shown_time(0));
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
-  frames_until([&] { return app().film.completing() == 0; });
-  EXPECT_FALSE(app().picture.film || comparison_view().picture(1).film);
-  EXPECT_THAT(app().messages.notice()->text, HasSubstr("film holds 4 frames"));
+  frames_until([&] { return app().video.completing() == 0; });
+  EXPECT_FALSE(app().image.video || comparison_view().image(1).video);
+  EXPECT_THAT(app().messages.notice()->text, HasSubstr("video holds 4 frames"));
 
-  const std::string film = film_pixels(directory() / "film", 3);
-  ASSERT_EQ(film.size(), 3u * static_cast<std::size_t>(size.width * size.height));
+  const std::string video = video_pixels(directory() / "video", 3);
+  ASSERT_EQ(video.size(), 3u * static_cast<std::size_t>(size.width * size.height));
   const std::vector<Tile> tiles = tiles_of(size, 2);
   auto renderer = Renderer::create(context());
   ASSERT_TRUE(renderer.ok());
@@ -421,56 +421,57 @@ TEST_F(Comparison, AFilmShowsAllRunsByNameAsEachIsDrawnAlone) {
     const auto path = [&](const std::string& name) { return (directory() / name).string(); };
     const std::string expected = path(fmt::format("expected-{}.vtp", i));
     ASSERT_TRUE(write_state(expected, model, *(*solver)->state(), Overwrite::refuse).ok());
-    EXPECT_TRUE(*read_file(path(fmt::format("film-{}-00000150.vtp", i + 1))) == *read_file(expected)) << i;
+    EXPECT_TRUE(*read_file(path(fmt::format("video-{}-00000150.vtp", i + 1))) == *read_file(expected)) << i;
     ASSERT_TRUE((*renderer)->set_model(model).ok());
     const auto state = (*renderer)->upload(*(*solver)->state());
     ASSERT_TRUE(state.ok());
     const Tile& tile = tiles[i];
-    PictureOptions options;
+    ImageOptions options;
     options.view = app().scene.scene().view;
     options.view.camera = fitted(options.view.camera, tile.width, tile.height);
     options.legend = false;
     options.tint = run_tint(i);
     options.text = comparison_text(comparison_view().name(i), i, 0.15, 0.001, std::nullopt);
     options.text_height = comparison_text_height(size.height, 2);
-    options.samples = 1;  // as the window's film on a software rasteriser
+    options.samples = 1;  // as the window's video on a software rasterizer
     ASSERT_TRUE((*renderer)->draw(tile.width, tile.height, *state, options).ok());
     const std::vector<std::byte> alone = read(context(), **renderer);
     const int frame = std::max(size.height / 240, 1);
     int off = 0;
     for (int y = frame; y < tile.height - frame; ++y)
-      off += std::memcmp(&film[3 * static_cast<std::size_t>((tile.top + y) * size.width + tile.left + frame)],
-                         &alone[3 * static_cast<std::size_t>(y * tile.width + frame)],
-                         3 * static_cast<std::size_t>(tile.width - 2 * frame)) != 0;
+      off +=
+          std::memcmp(&video[3 * static_cast<std::size_t>((tile.top + y) * size.width + tile.left + frame)],
+                      &alone[3 * static_cast<std::size_t>(y * tile.width + frame)],
+                      3 * static_cast<std::size_t>(tile.width - 2 * frame)) != 0;
     EXPECT_EQ(off, 0) << "rows of run " << i;
   }
 }
 
-TEST_F(Comparison, AFilmWithTextTellsRunsApartAndGoesOnAfterADivergence) {
+TEST_F(Comparison, AVideoWithTextTellsRunsApartAndGoesOnAfterADivergence) {
   open("cube-plane", {small, "simulation.timestep=0.003", "cube[0].structural.stiffness=20000"});
   compare({"integrator", "implicit-euler"});
-  app().film.settings = {find_film_format("png"), 20.0, true, "film"};
-  app().film.start();
-  ASSERT_TRUE(app().film.recording()) << app().messages.notice()->text;
-  const PictureSize size = app().film.recording()->options().size;
+  app().video.settings = {find_video_format("png"), 20.0, true, "video"};
+  app().video.start();
+  ASSERT_TRUE(app().video.recording()) << app().messages.notice()->text;
+  const ImageSize size = app().video.recording()->options().size;
   simulation().set_running(true);
   frames_until([&] { return run(0).divergence().has_value(); });
-  const std::uint64_t then = app().film.recording()->frames();
-  frames_until([&] { return app().film.recording()->frames() >= then + 3; });
+  const std::uint64_t then = app().video.recording()->frames();
+  frames_until([&] { return app().video.recording()->frames() >= then + 3; });
   EXPECT_EQ(&comparison().clock().setter(), &run(1));
-  EXPECT_FALSE(has("comparison/0/label")) << "names are in the film's pictures";
-  app().film.stop();
-  frames_until([&] { return app().film.completing() == 0; });
-  const std::string last = film_pixels(directory() / "film", static_cast<int>(then) + 2),
-                    before = film_pixels(directory() / "film", static_cast<int>(then) + 1);
+  EXPECT_FALSE(has("comparison/0/label")) << "names are in the video's images";
+  app().video.stop();
+  frames_until([&] { return app().video.completing() == 0; });
+  const std::string last = video_pixels(directory() / "video", static_cast<int>(then) + 2),
+                    before = video_pixels(directory() / "video", static_cast<int>(then) + 1);
   const std::vector<Tile> tiles = tiles_of(size, 2);
-  const auto at = [&](const std::string& picture, int x, int y) {
-    return picture.substr(3 * static_cast<std::size_t>(y * size.width + x), 3);
+  const auto at = [&](const std::string& image, int x, int y) {
+    return image.substr(3 * static_cast<std::size_t>(y * size.width + x), 3);
   };
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto& colour = run_colours[i];
+    const auto& color = run_colors[i];
     EXPECT_EQ(at(last, tiles[i].left, tiles[i].top + tiles[i].height / 2),
-              std::string(colour.begin(), colour.end()))
+              std::string(color.begin(), color.end()))
         << "the frame of run " << i;
   }
   const auto changes = [&](const Tile& tile) {
@@ -606,14 +607,14 @@ TEST_F(Comparison, AGhostShowsAnEarlierRunAtTheSameTime) {
   settled();
   EXPECT_EQ(state_hash_text(comparison().ghost()->simulation().snapshot()), pulled) << "hands are part of it";
   // A video that is narrower than the view has margins; the ghost stands where the run does.
-  app().film.settings = {find_film_format("png"), 20.0, false, "film"};
+  app().video.settings = {find_video_format("png"), 20.0, false, "video"};
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
   frames(1);
   resize(roomy[0], roomy[1]);
   frames(2);
-  EXPECT_LT(app().picture.shown().right - app().picture.shown().left,
+  EXPECT_LT(app().image.shown().right - app().image.shown().left,
             app().view.box.right - app().view.box.left - 8.0);
-  EXPECT_EQ(comparison_view().ghost()->shown(), app().picture.shown());
+  EXPECT_EQ(comparison_view().ghost()->shown(), app().image.shown());
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
   press(GLFW_KEY_G, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
   frames(2);
@@ -621,7 +622,7 @@ TEST_F(Comparison, AGhostShowsAnEarlierRunAtTheSameTime) {
   EXPECT_FALSE(has("ghost/label"));
 }
 
-TEST_F(Comparison, AGhostIsSeenOverThePicture) {
+TEST_F(Comparison, AGhostIsSeenOverTheImage) {
   open("cube-plane", {small});
   run_to(400);
   press(GLFW_KEY_G, GLFW_MOD_CONTROL);
@@ -645,7 +646,7 @@ TEST_F(Comparison, AGhostIsSeenOverThePicture) {
   EXPECT_GT(differs, 30);
 }
 
-TEST_F(Comparison, TheSavedPictureHasAllRuns) {
+TEST_F(Comparison, TheSavedImageHasAllRuns) {
   open("cube-plane", {small});
   compare({"h", "0.002"});
   press(GLFW_KEY_F12);
@@ -657,13 +658,13 @@ TEST_F(Comparison, TheSavedPictureHasAllRuns) {
   EXPECT_EQ(error(), "");
 }
 
-TEST_F(Comparison, TheCameraTurnsInEveryPicture) {
+TEST_F(Comparison, TheCameraTurnsInEveryImage) {
   open("cube-plane", {small});
   compare({"h", "0.002"});
   frames_to_rest();
   const CameraSettings before = app().view.camera.goal();
   const app::Box& other = comparison_view().boxes()[1];
-  drag(GLFW_MOUSE_BUTTON_LEFT, other.centre_x(), other.centre_y(), 40.0, 0.0);
+  drag(GLFW_MOUSE_BUTTON_LEFT, other.center_x(), other.center_y(), 40.0, 0.0);
   EXPECT_NE(app().view.camera.goal(), before);
 }
 

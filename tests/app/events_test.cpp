@@ -51,15 +51,15 @@ bool waited_for(Condition condition) {
   return true;
 }
 
-/// A film's pictures come one for each step: 0.24 simulated seconds a second, shown at 240 pictures.
-app::KeptState one_picture_a_step(const FilmFormat* format) {
+/// A video's images come one for each step: 0.24 simulated seconds a second, shown at 240 images.
+app::KeptState one_image_a_step(const VideoFormat* format) {
   app::KeptState kept;
   kept.window = app::WindowPlace{width, height, std::array<int, 2>{0, 0}};
   for (const char* name : {"Simulation", "Springs", "View", "Performance", "Energy"})
     kept.layout.sections[name] = false;
   kept.speed = 0.24;
-  kept.film_fps = 240.0;
-  kept.film_format = format;
+  kept.video_fps = 240.0;
+  kept.video_format = format;
   return kept;
 }
 
@@ -128,9 +128,9 @@ class Events : public Stage {
   }
   void key(const std::string& name) { xdotool("key " + name); }
   void click_at(const app::Box& box) {
-    xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f} click 1", id_, box.centre_x(), box.centre_y()));
+    xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f} click 1", id_, box.center_x(), box.center_y()));
   }
-  /// A picture later, so that a field that was opened has the keyboard.
+  /// An image later, so that a field that was opened has the keyboard.
   void type(const std::string& text) { xdotool("type --delay 30 " + text); }
   /// Closes the window and returns what it leaves for the next time.
   app::KeptState left() {
@@ -140,7 +140,7 @@ class Events : public Stage {
     EXPECT_TRUE(left.ok());
     return left.ok() ? *left : app::KeptState();
   }
-  /// All events so far are dealt with, and a picture was drawn after them.
+  /// All events so far are dealt with, and an image was drawn after them.
   void catch_up() {
     const std::string name = fmt::format("aspic-cube-plane-{:04}.png", ++screenshots_);
     key("shift+F12");
@@ -169,18 +169,18 @@ class Events : public Stage {
     return content.ok() ? *content : "";
   }
   bool exists(const std::string& name) const { return fs::exists(directory() / name); }
-  static std::string picture(int film, int number) {
-    return fmt::format("aspic-cube-plane-{:04}/frame-{:06}.png", film, number);
+  static std::string image(int video, int number) {
+    return fmt::format("aspic-cube-plane-{:04}/frame-{:06}.png", video, number);
   }
-  void wait_for_picture(int film, int number) {
-    require([&] { return exists(picture(film, number)); }, picture(film, number));
+  void wait_for_image(int video, int number) {
+    require([&] { return exists(image(video, number)); }, image(video, number));
   }
-  /// A film of one picture, of what is seen now.
-  std::string still(int film) {
+  /// A video of one image, of what is seen now.
+  std::string still(int video) {
     key("ctrl+r");
-    wait_for_picture(film, 0);
+    wait_for_image(video, 0);
     key("ctrl+r");
-    return file(picture(film, 0));
+    return file(image(video, 0));
   }
   /// Width and height as a PNG's header says.
   static std::pair<int, int> size_of(const std::string& png) {
@@ -192,9 +192,9 @@ class Events : public Stage {
     };
     return {number(16), number(20)};
   }
-  static int frames_of(const std::string& film) {
+  static int frames_of(const std::string& video) {
     const std::string count =
-        output_of("ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 " + film);
+        output_of("ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 " + video);
     return count.empty() ? 0 : std::stoi(count);
   }
 
@@ -210,7 +210,7 @@ TEST_F(Events, NamesTheMissingDisplay) {
 }
 
 TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
-  app::KeptState kept = one_picture_a_step(find_film_format("png"));
+  app::KeptState kept = one_image_a_step(find_video_format("png"));
   kept.layout.text_size = 0.75;  // the terrain's shapes are in sight below the scenes
   const auto boxes = widgets(kept);
   keep(kept);
@@ -219,37 +219,37 @@ TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
   EXPECT_EQ(size_of(file(newest_)), std::pair(width, height));
 
   key("ctrl+r");
-  wait_for_picture(1, 0);
+  wait_for_image(1, 0);
   key("period");
-  wait_for_picture(1, 1);
-  EXPECT_FALSE(exists(picture(1, 2))) << "one step, one picture";
+  wait_for_image(1, 1);
+  EXPECT_FALSE(exists(image(1, 2))) << "one step, one image";
   key("period");
-  wait_for_picture(1, 2);
-  EXPECT_NE(file(picture(1, 2)), file(picture(1, 1)));
+  wait_for_image(1, 2);
+  EXPECT_NE(file(image(1, 2)), file(image(1, 1)));
   key("space");
-  wait_for_picture(1, 12);
+  wait_for_image(1, 12);
   key("space");
   key("ctrl+r");
 
   key("ctrl+r");
   key("period");
-  wait_for_picture(2, 1);
+  wait_for_image(2, 1);
   key("ctrl+r");
   key("Tab");
   catch_up();
-  EXPECT_EQ(size_of(still(3)).first, width) << "without panels the picture is as wide as the window";
+  EXPECT_EQ(size_of(still(3)).first, width) << "without panels the image is as wide as the window";
   key("Tab");
   catch_up();
   const std::string before = still(4);
   EXPECT_EQ(size_of(before).first, static_cast<int>(view_.right - view_.left));
 
-  xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f}", id_, view_.centre_x(), view_.centre_y()));
+  xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f}", id_, view_.center_x(), view_.center_y()));
   xdotool("mousedown 1 mousemove_relative 60 10 mousemove_relative 60 10 mouseup 1");
   catch_up();
   EXPECT_NE(still(5), before) << "a drag turns the camera";
   key("Home");
-  int film = 6;
-  EXPECT_TRUE(waited_for([&] { return still(film++) == before; })) << "Home comes back to the bit";
+  int video = 6;
+  EXPECT_TRUE(waited_for([&] { return still(video++) == before; })) << "Home comes back to the bit";
   EXPECT_THAT(title(), testing::StartsWith("cube-plane - "));
   ASSERT_LT(boxes.at("terrain/sphere").bottom, height - 20.0) << "above the status line";
   click_at(boxes.at("terrain/sphere"));
@@ -264,12 +264,12 @@ TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
   EXPECT_TRUE(waited_for([&] { return title().starts_with("cube-plane -"); })) << title();
   ask_to_close();
   EXPECT_EQ(exit_code(), 0) << log();
-  EXPECT_TRUE(exists(picture(2, 1)));
-  EXPECT_FALSE(exists(picture(2, 2))) << "Space had paused the motion";
+  EXPECT_TRUE(exists(image(2, 1)));
+  EXPECT_FALSE(exists(image(2, 2))) << "Space had paused the motion";
 }
 
 TEST_F(Events, ShortcutsFollowThePrintedLetter) {
-  keep(one_picture_a_step(find_film_format("mp4")));
+  keep(one_image_a_step(find_video_format("mp4")));
   for (const std::string layout : {"de", "fr"}) {
     ASSERT_EQ(std::system(("setxkbmap " + layout).c_str()), 0);
     start();
@@ -288,7 +288,7 @@ TEST_F(Events, ShortcutsFollowThePrintedLetter) {
 }
 
 TEST_F(Events, HeadingsOpenAtOnceAfterAShortcut) {
-  const app::KeptState kept = one_picture_a_step(find_film_format("png"));
+  const app::KeptState kept = one_image_a_step(find_video_format("png"));
   const auto boxes = widgets(kept);
   keep(kept);
   start();
@@ -300,7 +300,7 @@ TEST_F(Events, HeadingsOpenAtOnceAfterAShortcut) {
 }
 
 TEST_F(Events, ControlClickTypesIntoANumberAndEveryTapArrives) {
-  app::KeptState kept = one_picture_a_step(find_film_format("png"));
+  app::KeptState kept = one_image_a_step(find_video_format("png"));
   kept.layout.sections["View"] = kept.layout.sections["View: more"] = true;
   // All rows down to the camera's in sight, in one column.
   kept.layout.sections["Scene"] = false;
@@ -311,10 +311,10 @@ TEST_F(Events, ControlClickTypesIntoANumberAndEveryTapArrives) {
   start();
   catch_up();
   const app::Box& box = boxes.at("view.camera.position");
-  xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f}", id_, box.centre_x(), box.centre_y()));
+  xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f}", id_, box.center_x(), box.center_y()));
   xdotool("keydown ctrl click 1 keyup ctrl");
   catch_up();
-  // Taps far shorter than a picture, and some that many hands make.
+  // Taps far shorter than an image, and some that many hands make.
   type("91234567890");
   xdotool("key --delay 4 BackSpace BackSpace BackSpace BackSpace BackSpace");
   xdotool("key --delay 60 BackSpace BackSpace BackSpace BackSpace BackSpace Return");
@@ -326,8 +326,8 @@ TEST_F(Events, ControlClickTypesIntoANumberAndEveryTapArrives) {
   EXPECT_NEAR(left_behind.cameras[0].camera.position.y, 9.0, 1e-9);
 }
 
-TEST_F(Events, ClosingWhileAFilmRunsLeavesItWhole) {
-  keep(one_picture_a_step(find_film_format("mp4")));
+TEST_F(Events, ClosingWhileAVideoRunsLeavesItWhole) {
+  keep(one_image_a_step(find_video_format("mp4")));
   start();
   key("ctrl+r");
   key("period period period period period");
@@ -337,10 +337,10 @@ TEST_F(Events, ClosingWhileAFilmRunsLeavesItWhole) {
   EXPECT_THAT(log(), testing::HasSubstr("aspic-cube-plane-0001.mp4 holds 6 frames"));
 }
 
-TEST_F(Events, ASignalWhileAFilmRunsLeavesItWhole) {
+TEST_F(Events, ASignalWhileAVideoRunsLeavesItWhole) {
   int sent = 0;
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
-    keep(one_picture_a_step(find_film_format("webm")));
+    keep(one_image_a_step(find_video_format("webm")));
     start();
     key("ctrl+r");
     key("period period period");
@@ -352,7 +352,7 @@ TEST_F(Events, ASignalWhileAFilmRunsLeavesItWhole) {
 }
 
 TEST_F(Events, VideoAndSettingsOutliveTheDisplay) {
-  app::KeptState kept = one_picture_a_step(find_film_format("mp4"));
+  app::KeptState kept = one_image_a_step(find_video_format("mp4"));
   keep(kept);
   const std::string display = test::variable("DISPLAY"), other = directory() / "display";
   close_window();
@@ -374,7 +374,7 @@ TEST_F(Events, VideoAndSettingsOutliveTheDisplay) {
 }
 
 TEST_F(Events, AnEncoderThatHangsDoesNotHoldUpTheEnd) {
-  keep(one_picture_a_step(find_film_format("mp4")));
+  keep(one_image_a_step(find_video_format("mp4")));
   start_with_ffmpeg("exec sleep 600\n");
   key("ctrl+r");
   key("period period period");
@@ -386,7 +386,7 @@ TEST_F(Events, AnEncoderThatHangsDoesNotHoldUpTheEnd) {
 }
 
 TEST_F(Events, AnEncoderThatFailsLeavesTheWindowAtWork) {
-  keep(one_picture_a_step(find_film_format("mp4")));
+  keep(one_image_a_step(find_video_format("mp4")));
   start_with_ffmpeg("head -c 1000 >/dev/null\necho no space >&2\nexit 1\n");
   key("ctrl+r");
   key("space");

@@ -263,7 +263,7 @@ TEST_F(Files, ThePaletteFindsValuesBeforeScenesAndSectionsToo) {
   open("cube-plane", {}, "reference");
   const auto marked = [&](const std::string& widget) {
     const app::Box row = widgets().at("palette/marked"), own = widgets().at(widget);
-    return std::abs(row.centre_y() - own.centre_y()) < 8.0;
+    return std::abs(row.center_y() - own.center_y()) < 8.0;
   };
   // A scene's description speaks of gravity; the value has the name.
   ask(U"gravity");

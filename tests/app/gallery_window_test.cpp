@@ -1,4 +1,4 @@
-// The window as docs/gallery.md shows it. With the environment variable ASPIC_WINDOW_PICTURES the pictures go
+// The window as docs/gallery.md shows it. With the environment variable ASPIC_WINDOW_IMAGES the images go
 // to that directory; scripts/gallery.sh does so.
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "app/stage.h"
-#include "io/film_format.h"
+#include "io/video_format.h"
 #include "render/camera.h"
 #include "support/projection.h"
 
@@ -20,10 +20,10 @@ class Gallery : public Stage {
 
   /// Coarsely on the way, so that the figures shown are those of a window that keeps up.
   void run_to(std::uint64_t step) {
-    app().picture.full_quality = false;
+    app().image.full_quality = false;
     press(GLFW_KEY_SPACE);
     frames_to_step(step);
-    app().picture.full_quality = true;
+    app().image.full_quality = true;
   }
   void point_at(const Vec3& point) {
     const app::Box& view = app().view.box;
@@ -36,11 +36,11 @@ class Gallery : public Stage {
   void take(const std::string& name) {
     EXPECT_FALSE(app().messages.notice() && app().messages.notice()->is_error)
         << app().messages.notice()->text;
-    const Image picture = image();
-    const auto file = encode_jpeg({picture.width, picture.height}, picture.rgb);
+    const Image window = image();
+    const auto file = encode_jpeg({window.width, window.height}, window.rgb);
     ASSERT_TRUE(file.ok()) << file.error().message();
     EXPECT_GT(file->size(), 60000u);
-    const char* const wanted = std::getenv("ASPIC_WINDOW_PICTURES");
+    const char* const wanted = std::getenv("ASPIC_WINDOW_IMAGES");
     const std::filesystem::path path =
         (wanted ? std::filesystem::path(wanted) : directory()) / (name + ".jpg");
     auto out = AtomicFile::create(path.string(), Overwrite::allow);
@@ -118,7 +118,7 @@ TEST_F(Gallery, GoalNetCatchesAShot) {
 
 TEST_F(Gallery, StrainOfACubeThatAHandPulls) {
   open("cube-plane",
-       {"cube[0].position=[0,1.05,0]", "view.colour=strain", "simulation.steps-per-frame=20",
+       {"cube[0].position=[0,1.05,0]", "view.color=strain", "simulation.steps-per-frame=20",
         "view.camera={position=[8,5,13], target=[0.4,2.0,0], fov=45}"},
        "reference");
   const Vec3 corner = simulation().snapshot().position[999];
@@ -175,7 +175,7 @@ TEST_F(Gallery, CellsArePainted) {
   }
   frames(3);
   const app::Box grid = widgets().at("cells/grid");
-  app().cursor(grid.left + 0.65 * (grid.right - grid.left), grid.centre_y());
+  app().cursor(grid.left + 0.65 * (grid.right - grid.left), grid.center_y());
   frames(3);
   EXPECT_TRUE(app().cells.refusal().empty()) << app().cells.refusal();
   take("window-cells");

@@ -26,9 +26,9 @@ KeptState unusual() {
   s.greeted = true;
   s.pace = Pace::real_time;
   s.speed = 0.125;
-  s.film_format = find_film_format("gif");
-  s.film_fps = 24.5;
-  s.film_text = false;
+  s.video_format = find_video_format("gif");
+  s.video_fps = 24.5;
+  s.video_text = false;
   s.cameras = {{"cube-plane", {{1.1, 2.2, 3.3}, {0.0, 0.5, 0.0}, 30.0}},
                {"/a \"quoted\"\\path/scene.toml", {{-1e5, 2, 3}, {0, 0, 0}, 60.0}}};
   return s;
@@ -48,13 +48,25 @@ std::string with(const std::string& member) {
 }
 
 TEST(KeptState, WhatIsNotSaidIsAsAtTheFirstTime) {
-  const auto read = read_kept_state(with(R"("layout": {"text_size": 2}, "film": {"format": "gif"})"));
+  const auto read = read_kept_state(with(R"("layout": {"text_size": 2}, "video": {"format": "gif"})"));
   ASSERT_TRUE(read.ok()) << read.error().message();
   KeptState expected;
   expected.layout.text_size = 2.0;
-  expected.film_format = find_film_format("gif");
-  expected.film_fps = expected.film_format->most_fps;
+  expected.video_format = find_video_format("gif");
+  expected.video_fps = expected.video_format->most_fps;
   EXPECT_EQ(*read, expected);
+}
+
+TEST(KeptState, AcceptsTheNamesBeforeVersion03) {
+  const std::string present =
+      with(R"("layout_name": "lab", "layouts": {"video": {}}, "video": {"format": "gif", "fps": 20})");
+  const std::string former =
+      with(R"("layout_name": "lab", "layouts": {"film": {}}, "film": {"format": "gif", "fps": 20})");
+  const auto read = read_kept_state(former);
+  ASSERT_TRUE(read.ok()) << read.error().message();
+  EXPECT_EQ(*read, *read_kept_state(present));
+  EXPECT_NE(*read, KeptState());
+  EXPECT_EQ(read_kept_state(with(R"("layout_name": "film")"))->layout.row().name, "video");
 }
 
 TEST(KeptState, WhatTheWindowWouldNotWriteIsNamed) {
@@ -77,7 +89,7 @@ TEST(KeptState, WhatTheWindowWouldNotWriteIsNamed) {
       {with(R"("window": {"size": [-800, 600]})"), "size"},
       {with(R"("window": {"size": [800.5, 600]})"), "size"},
       {with(R"("window": 3)"), "window"},
-      {with(R"("film": {"format": "gif", "fps": 200})"), "fps"},
+      {with(R"("video": {"format": "gif", "fps": 200})"), "fps"},
       {with(R"("cameras": [{"scene": "a"}])"), "camera"},
       {with(R"("cameras": [{"scene": "a", "camera": {"position": {"x": 1, "y": 1, "z": 1},
                 "target": {"x": 1, "y": 1, "z": 1}, "fov": 45}}])"),

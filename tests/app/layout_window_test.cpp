@@ -25,7 +25,7 @@ class Layout : public Stage {
       kept.layout.sections[name] = open;
     return kept;
   }
-  /// Lets the camera come to rest without a picture of all its way.
+  /// Lets the camera come to rest without an image of all its way.
   void rest() {
     for (int i = 0; i < 100 && app().view.camera.update(1.0); ++i) {
     }
@@ -110,7 +110,7 @@ TEST_F(Layout, NothingIsCutOffAndNothingOverlaps) {
       }
       for (std::size_t i = 0; i < boxes.size(); ++i) {
         const auto& [name, b] = boxes[i];
-        // The bar is under the picture, and the large buttons in it.
+        // The bar is under the image, and the large buttons in it.
         const bool in_view = name == "timeline" || name.starts_with("actions/");
         if (in_view) {
           EXPECT_GE(b.left, view.left) << name << " at " << at;
@@ -140,7 +140,7 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   click("section/Simulation");
   click("section/Contact");
   const Box edge = box("layout/left");
-  drag(GLFW_MOUSE_BUTTON_LEFT, edge.centre_x(), edge.centre_y(), 55, 0);
+  drag(GLFW_MOUSE_BUTTON_LEFT, edge.center_x(), edge.center_y(), 55, 0);
   frames(2);
   const double left = app().view.box.left;
   EXPECT_GT(left, 322 + 20);
@@ -153,7 +153,7 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   const CameraSettings sphere = app().view.camera.goal();
   simulation().pacer().set_pace(Pace::real_time);
   simulation().pacer().set_speed(0.5);
-  app().film.settings.format = find_film_format("webm");
+  app().video.settings.format = find_video_format("webm");
   const app::KeptState kept = app().kept_state();
   close();
 
@@ -166,7 +166,7 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   EXPECT_TRUE(has("section/Performance"));
   EXPECT_EQ(simulation().pacer().pace(), Pace::real_time);
   EXPECT_EQ(simulation().pacer().speed(), 0.5);
-  EXPECT_EQ(app().film.settings.format, find_film_format("webm"));
+  EXPECT_EQ(app().video.settings.format, find_video_format("webm"));
   app().scene.open("cube-plane");
   EXPECT_EQ(app().view.camera.shown(), plane);
   press(GLFW_KEY_HOME);
@@ -183,20 +183,20 @@ TEST_F(Layout, AFirstStartIsALessonInRealTimeAndSaysTheKeysOnce) {
   open("cube-plane", {}, "", app::KeptState());
   EXPECT_EQ(simulation().pacer().pace(), Pace::real_time);
   for (const char* widget :
-       {"scene/search", "simulation/run", "springs/all/stiffness", "view.colour", "energy/plot"})
+       {"scene/search", "simulation/run", "springs/all/stiffness", "view.color", "energy/plot"})
     EXPECT_TRUE(has(widget)) << widget;
   // In sight, without scrolling, as it is at first.
   app().layout.reset();
   frames(2);
-  for (const char* widget : {"actions/start", "actions/reset", "actions/compare", "actions/film",
-                             "energy/plot", "energy/plot/total", "springs/all/stiffness", "view.colour"})
+  for (const char* widget : {"actions/start", "actions/reset", "actions/compare", "actions/video",
+                             "energy/plot", "energy/plot/total", "springs/all/stiffness", "view.color"})
     EXPECT_LT(box(widget).bottom, 690.0) << widget;
   for (const char* widget : {"cube[0].edge-length", "cube[0].shear.stiffness", "contact.model", "balls/throw",
                              "record/format", "shadow/on", "stability/map"})
     EXPECT_FALSE(has(widget)) << widget;
   EXPECT_EQ(app().layout.row().open.size(), 5u);
   ASSERT_TRUE(app().messages.notice().has_value());
-  EXPECT_GT(box("notice/close").top, app().view.box.centre_y()) << "below the body before it falls";
+  EXPECT_GT(box("notice/close").top, app().view.box.center_y()) << "below the body before it falls";
   for (const char* key : {"Space", "Ctrl+drag", "F1", "Ctrl+P"})
     EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(key));
   const app::KeptState kept = app().kept_state();
@@ -248,10 +248,10 @@ TEST_F(Layout, ComesBackAsItWasLeftHoweverItIsChosen) {
   EXPECT_EQ(app().layout.row().name, "lecture");
 }
 
-TEST_F(Layout, OfAFilmIsThePictureAlone) {
+TEST_F(Layout, OfAVideoIsTheImageAlone) {
   app::KeptState kept;
   kept.greeted = true;
-  kept.layout.choose(*app::find_layout("film"));
+  kept.layout.choose(*app::find_layout("video"));
   open("cube-plane", {"cube[0].position=[0,2.5,0]"}, "reference", kept);
   EXPECT_EQ(app().view.box, (Box{0, 0, 1280, 720}));
   app().messages.dismiss();
@@ -290,7 +290,7 @@ TEST_F(Layout, TheSliderChangesTextOnceItIsLetGo) {
   open("cube-plane", {}, "", with_sections(false));
   click("section/View");
   const Box slider = box("layout/text-size");
-  drag(GLFW_MOUSE_BUTTON_LEFT, slider.centre_x(), slider.centre_y(), 20, 0);
+  drag(GLFW_MOUSE_BUTTON_LEFT, slider.center_x(), slider.center_y(), 20, 0);
   frames(3);
   EXPECT_GT(app().gui().scale(), 1.2);
   EXPECT_EQ(app().gui().scale(), app().layout.text_size);

@@ -45,7 +45,7 @@ TEST_F(LongStep, PauseAndOtherBackendsComeAtOnce) {
 TEST_F(LongStep, TheWindowSaysThatItWorks) {
   run_endlessly();
   frames_until([&] { return simulation().jobs().long_under_way(); });
-  EXPECT_GT(app().wait(0.0), 0.0) << "with nothing new to show pictures wait";
+  EXPECT_GT(app().wait(0.0), 0.0) << "with nothing new to show images wait";
   press(GLFW_KEY_R);
   EXPECT_FALSE(simulation().jobs().long_under_way());
   EXPECT_EQ(simulation().step(), 0u);

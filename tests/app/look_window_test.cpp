@@ -1,4 +1,4 @@
-// What the View section and its keys change of the picture: cut, projection, axes, arrows.
+// What the View section and its keys change of the image: cut, projection, axes, arrows.
 #include <gtest/gtest.h>
 
 #include "app/stage.h"

@@ -113,7 +113,7 @@ TEST_F(Panels, RowsKeepTheirPlacesWhileEnergyHasNoFigures) {
     for (int i = 0; i < 10; ++i) {
       frame();
       if (simulation().samples().energies().empty()) ++without;
-      EXPECT_EQ(widgets().at("view.draw/solid"), full) << integrator << ", picture " << i;
+      EXPECT_EQ(widgets().at("view.draw/solid"), full) << integrator << ", image " << i;
     }
   }
   EXPECT_GT(without, 0);
@@ -123,7 +123,7 @@ TEST_F(Panels, ADragOfANumberIsOneChangeForUndo) {
   open("cube-plane");
   const Vec3 before = settings().simulation.gravity;
   const auto box = widgets().at("simulation.timestep");
-  drag(GLFW_MOUSE_BUTTON_LEFT, box.centre_x(), box.centre_y(), 60, 0);
+  drag(GLFW_MOUSE_BUTTON_LEFT, box.center_x(), box.center_y(), 60, 0);
   frames(2);
   EXPECT_GT(settings().simulation.timestep, 0.001);
   EXPECT_EQ(settings().simulation.gravity, before);
@@ -142,7 +142,7 @@ TEST_F(Panels, NumbersAreTypedAsArithmetic) {
     frames(2, 0.4);  // so that two presses are no double click
     const Box box = widgets().at(widget);
     if (control) app().key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS, 0);
-    app().cursor(box.left + share * (box.right - box.left), box.centre_y());
+    app().cursor(box.left + share * (box.right - box.left), box.center_y());
     frames(1);
     app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, control ? GLFW_MOD_CONTROL : 0);
     frames(1);
@@ -195,7 +195,7 @@ TEST_F(Panels, LengthsAndAnglesAreDraggedAtAFixedSpeed) {
     frames(40);  // so that two presses are no double click
     const Box box = widgets().at(widget);
     const double before = value();
-    drag(GLFW_MOUSE_BUTTON_LEFT, box.left + inwards, box.centre_y(), 50, 0);
+    drag(GLFW_MOUSE_BUTTON_LEFT, box.left + inwards, box.center_y(), 50, 0);
     frames(2);
     return value() - before;
   };
@@ -207,7 +207,7 @@ TEST_F(Panels, LengthsAndAnglesAreDraggedAtAFixedSpeed) {
   const auto x = [&] { return settings().cubes[0].position.x; };
   const double first = drag_by("cube[0].position", 10.0, x);
   EXPECT_GT(first, 0.2);
-  EXPECT_LE(first, 0.5) << "a centimetre";
+  EXPECT_LE(first, 0.5) << "a centimeter";
 }
 
 // A change of a body restarts the run and says so, in the midst of the drag.
@@ -216,7 +216,7 @@ TEST_F(Panels, ANoticeEndsNeitherADragNorTyping) {
   bring_into_sight("cube[0].rotation.angle");
   frames(40);
   Box box = widgets().at("cube[0].rotation.angle");
-  const double before = settings().cubes[0].rotation.angle, x = box.left + 20.0, y = box.centre_y();
+  const double before = settings().cubes[0].rotation.angle, x = box.left + 20.0, y = box.center_y();
   app().cursor(x, y);
   frames(1);
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
@@ -233,7 +233,7 @@ TEST_F(Panels, ANoticeEndsNeitherADragNorTyping) {
   app().messages.dismiss();
   frames(40);
   box = widgets().at("cube[0].particles-per-edge");
-  app().cursor(box.left + 0.2 * (box.right - box.left), box.centre_y());
+  app().cursor(box.left + 0.2 * (box.right - box.left), box.center_y());
   frames(1);
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
   frames(1);
@@ -339,7 +339,7 @@ TEST_F(Panels, DivergencePausesExplainsAndOffersAStableStep) {
   EXPECT_FALSE(simulation().divergence().has_value());
 }
 
-TEST_F(Panels, LargeButtonsRunResetCompareAndFilm) {
+TEST_F(Panels, LargeButtonsRunResetCompareAndVideo) {
   open("cube-plane", {"cube[0].particles-per-edge=4"}, "reference");
   click("actions/start");
   EXPECT_TRUE(simulation().running());
@@ -348,10 +348,10 @@ TEST_F(Panels, LargeButtonsRunResetCompareAndFilm) {
   EXPECT_FALSE(simulation().running());
   click("actions/reset");
   EXPECT_EQ(simulation().step(), 0u);
-  click("actions/film");
-  EXPECT_NE(app().film.recording(), nullptr);
-  click("actions/film");
-  EXPECT_EQ(app().film.recording(), nullptr);
+  click("actions/video");
+  EXPECT_NE(app().video.recording(), nullptr);
+  click("actions/video");
+  EXPECT_EQ(app().video.recording(), nullptr);
   click("actions/compare");
   frames_until([&] { return app().comparison.settled(); });
   EXPECT_EQ(app().comparison.count(), 2u);
@@ -363,7 +363,7 @@ TEST_F(Panels, LargeButtonsRunResetCompareAndFilm) {
 TEST_F(Panels, OneStiffnessIsThatOfAllSprings) {
   open("cube-plane", {}, "reference");
   const Box row = widgets().at("springs/all/stiffness");
-  drag(GLFW_MOUSE_BUTTON_LEFT, row.centre_x(), row.centre_y(), 60, 0);
+  drag(GLFW_MOUSE_BUTTON_LEFT, row.center_x(), row.center_y(), 60, 0);
   frames(2);
   const CubeSettings& cube = settings().cubes[0];
   EXPECT_GT(cube.structural.stiffness, 2000.0);

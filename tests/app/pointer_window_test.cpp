@@ -1,4 +1,4 @@
-// What the mouse points at: told, marked, centred.
+// What the mouse points at: told, marked, centered.
 #include <cmath>
 #include <fstream>
 
@@ -14,7 +14,7 @@ namespace {
 
 class Pointer : public Stage {
  protected:
-  bool full_quality() const override { return true; }  // pictures are compared, whatever time they take
+  bool full_quality() const override { return true; }  // images are compared, whatever time they take
   Camera camera() { return app().view.lens(); }
   /// Where a point is seen in the window.
   test::Projected place(const Vec3& point) {
@@ -53,7 +53,7 @@ class Pointer : public Stage {
     app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
   }
   void double_click(double x, double y, double pause = 0.2) {
-    app().picture.full_quality = false;  // nobody looks
+    app().image.full_quality = false;  // nobody looks
     app().pointer.clock = [this] { return time_; };
     const double start = time_ + 10.0;
     click(x, y, start);
@@ -68,12 +68,12 @@ class Pointer : public Stage {
   double time_ = 0.0;
 };
 
-/// What the mouse finds, on every backend; no pictures are compared.
+/// What the mouse finds, on every backend; no images are compared.
 class PointerOn : public Pointer, public ::testing::WithParamInterface<const char*> {
  protected:
   /// Coarsely on the way.
   void run_to(std::uint64_t step) {
-    app().picture.full_quality = false;
+    app().image.full_quality = false;
     frames_to_step(step);
   }
 };
@@ -150,30 +150,30 @@ TEST_P(PointerOn, ReadsAndPullsABallAndTheRunComesBack) {
 
 TEST_P(PointerOn, TheCameraFollowsWhatIsUnderTheMouse) {
   open("cube-tilted-plane", {"cube[0].position=[0,3,0]"}, GetParam());
-  const auto centre = [&] { return place_of(simulation().model(), simulation().snapshot(), {false, 0}); };
-  const Vec3 start = centre();
+  const auto center = [&] { return place_of(simulation().model(), simulation().snapshot(), {false, 0}); };
+  const Vec3 start = center();
   const test::Projected before = place(start);
   point_at(start);
   ASSERT_TRUE(app().pointer.hovered().has_value());
   press(GLFW_KEY_C);
   EXPECT_EQ(app().scene.scene().view.follow, "cube[0]");
-  frames(1);  // from this picture on
+  frames(1);  // from this image on
   app().cursor(5.0, 300.0);
   press(GLFW_KEY_SPACE);
   run_to(250);
   press(GLFW_KEY_SPACE);
   ASSERT_TRUE(simulation().settle().ok());
   frames(2);
-  EXPECT_GT(length(centre() - start), 0.2);
+  EXPECT_GT(length(center() - start), 0.2);
   // Camera matrices are of single precision.
-  const test::Projected after = place(centre());
+  const test::Projected after = place(center());
   EXPECT_NEAR(after.x, before.x, 0.1);
   EXPECT_NEAR(after.y, before.y, 0.1);
   press(GLFW_KEY_C);
   frames(2);
   EXPECT_FALSE(app().scene.scene().view.follow.has_value());
-  const test::Projected left = place(centre());
-  EXPECT_NEAR(left.x, after.x, 0.1) << "the picture stays where it is";
+  const test::Projected left = place(center());
+  EXPECT_NEAR(left.x, after.x, 0.1) << "the image stays where it is";
   EXPECT_NEAR(left.y, after.y, 0.1);
   for (int i = 0; i < 2; ++i) press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   frames(1);
@@ -222,7 +222,7 @@ TEST_F(Pointer, SolidBodiesHideTheirInside) {
   EXPECT_FALSE(app().pointer.hovered().has_value()) << "a panel";
 }
 
-TEST_F(Pointer, RingFollowsTheMouseWithoutANewPicture) {
+TEST_F(Pointer, RingFollowsTheMouseWithoutANewImage) {
   open("cube-plane", {"cube[0].position=[0,3,0]"});
   resize(roomy[0], roomy[1]);
   frames_to_rest();
@@ -239,7 +239,7 @@ TEST_F(Pointer, RingFollowsTheMouseWithoutANewPicture) {
   EXPECT_EQ(change(before, with, p.x + 30.0 * x, p.y + 30.0 * y, 20.0), 0) << "nothing else changes";
   EXPECT_EQ(change(before, with, p.x - 30.0 * x, p.y - 30.0 * y, 20.0), 0) << "nothing is in the way";
   const app::Box readout = widgets().at("particle");
-  EXPECT_GT(change(before, with, readout.centre_x(), readout.centre_y(), 20.0), 5000) << "what is told of it";
+  EXPECT_GT(change(before, with, readout.center_x(), readout.center_y(), 20.0), 5000) << "what is told of it";
   app().cursor(5.0, 300.0);
   frames(3);
   EXPECT_EQ(change(before, pixels(), p.x, p.y, 40.0), 0) << "gone with the mouse";
@@ -276,7 +276,7 @@ TEST_F(Pointer, PullsAndPinsAreMarked) {
   EXPECT_GT(change(after, pixels(), p.x, p.y, 5.0), 2000) << "a diamond";
 }
 
-TEST_F(Pointer, DoubleClickCentresWhatIsThere) {
+TEST_F(Pointer, DoubleClickCentersWhatIsThere) {
   std::ofstream("scene.toml")
       << "schema = 1\n[[terrain]]\nshape = \"plane\"\n[[cube]]\nposition = [0, 3, 0]\n"
          "[[ball]]\nposition = [-4, 1, 2]\nradius = 0.8\nvelocity = [0, 0, 0]\n"
@@ -352,7 +352,7 @@ TEST_F(Pointer, ShadowsCanBeSwitchedOff) {
   const test::Projected beside = place({3.0, -1.0, 0.5});
   const auto far_off = place({-5.0, -1.0, 5.0});
   click("view/shadows");
-  EXPECT_FALSE(app().picture.shadows);
+  EXPECT_FALSE(app().image.shadows);
   app().cursor(5.0, 300.0);
   frames(60);
   const auto bare = pixels();

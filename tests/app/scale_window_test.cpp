@@ -1,4 +1,4 @@
-// The scale of colours, set in the section View.
+// The scale of colors, set in the section View.
 #include <GLFW/glfw3.h>
 
 #include "app/stage.h"
@@ -12,24 +12,24 @@ class ScaleRows : public Stage {
   const ViewSettings& view() { return app().scene.scene().view; }
 };
 
-TEST_F(ScaleRows, AppearWithAColourThatHasAScale) {
+TEST_F(ScaleRows, AppearWithAColorThatHasAScale) {
   open("cube-plane", {}, "reference");
   EXPECT_FALSE(has("view.scale.range"));
-  click("view.colour");
-  click("view.colour/signed-strain");
+  click("view.color");
+  click("view.color/signed-strain");
   EXPECT_TRUE(has("view.scale.from"));
   EXPECT_TRUE(has("legend"));
   click("view.scale.map");
   click("view.scale.map/heat");
   EXPECT_EQ(view().scale.map, ScaleMap::heat);
-  EXPECT_EQ(app().picture.legend().map, ScaleMap::heat);
+  EXPECT_EQ(app().image.legend().map, ScaleMap::heat);
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   EXPECT_EQ(view().scale.map, ScaleMap::automatic);
-  EXPECT_EQ(app().picture.legend().map, ScaleMap::blue_red);
+  EXPECT_EQ(app().image.legend().map, ScaleMap::blue_red);
 }
 
-TEST_F(ScaleRows, AnEndStartsAsWhatThePictureHas) {
-  open("cube-plane", {"view.colour=strain"}, "reference");
+TEST_F(ScaleRows, AnEndStartsAsWhatTheImageHas) {
+  open("cube-plane", {"view.color=strain"}, "reference");
   frames(1);
   click("view.scale.to/set");
   EXPECT_EQ(view().scale.to, 0.2);
@@ -37,9 +37,9 @@ TEST_F(ScaleRows, AnEndStartsAsWhatThePictureHas) {
   EXPECT_FALSE(view().scale.to.has_value());
 }
 
-TEST_F(ScaleRows, ARangeThatFollowsThePictureCanBeKept) {
+TEST_F(ScaleRows, ARangeThatFollowsTheImageCanBeKept) {
   // Strained by its own weight from the first step on.
-  open("cube-plane", {"view.colour=strain", "cube[0].position=[0,1.05,0]"}, "reference");
+  open("cube-plane", {"view.color=strain", "cube[0].position=[0,1.05,0]"}, "reference");
   click("view.scale.range");
   click("view.scale.range/automatic");
   EXPECT_FALSE(has("view.scale.from"));
@@ -47,17 +47,17 @@ TEST_F(ScaleRows, ARangeThatFollowsThePictureCanBeKept) {
   frames_to_step(200);
   press(GLFW_KEY_SPACE);
   frames(2);
-  const QuantityRange shown = app().picture.range();
-  EXPECT_LT(shown[1], 0.2) << "the ends do not follow the picture";
+  const QuantityRange shown = app().image.range();
+  EXPECT_LT(shown[1], 0.2) << "the ends do not follow the image";
   EXPECT_GT(shown[1], shown[0]);
-  const Legend legend = app().picture.legend();
+  const Legend legend = app().image.legend();
   click("scale/keep");
   EXPECT_EQ(view().scale.range, ScaleRange::fixed);
   EXPECT_EQ(view().scale.from, shown[0]);
   EXPECT_EQ(view().scale.to, shown[1]);
   frames(1);
-  EXPECT_EQ(app().picture.range(), shown);
-  EXPECT_EQ(app().picture.legend().marks[1], legend.marks[1]);
+  EXPECT_EQ(app().image.range(), shown);
+  EXPECT_EQ(app().image.legend().marks[1], legend.marks[1]);
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   EXPECT_EQ(view().scale.range, ScaleRange::automatic);
   EXPECT_FALSE(view().scale.from.has_value());

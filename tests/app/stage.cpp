@@ -11,7 +11,7 @@
 
 namespace aspic::test {
 
-void WidgetLog::end_of_picture() {
+void WidgetLog::end_of_image() {
   boxes = std::move(making_);
   making_ = {};
   explanations.clear();
@@ -50,7 +50,7 @@ void Stage::TearDown() {
 void Stage::open(const std::string& scene, std::vector<std::string> overrides, std::string_view backend) {
   app::KeptState never_closed;
   never_closed.greeted = true;
-  never_closed.pace = Pace::steps_per_frame;  // as many steps a picture, however long it takes
+  never_closed.pace = Pace::steps_per_frame;  // as many steps an image, however long it takes
   open(scene, std::move(overrides), backend, never_closed);
 }
 
@@ -91,12 +91,12 @@ void Stage::frame(double apart) {
   size.height = static_cast<int>(std::lround(size.pixel_height / pixels_per_unit));
   const Status drawn = app_->frame(size, apart);
   ASSERT_TRUE(drawn.ok()) << drawn.error().message();
-  window_->show_picture();
+  window_->show_image();
 }
 
 void Stage::frames(int count, double apart) {
   for (int i = 0; i < count && !HasFatalFailure(); ++i) frame(apart);
-  while ((app_->picture.refining() || app_->comparison_view.refining()) && !HasFatalFailure()) frame(0.0);
+  while ((app_->image.refining() || app_->comparison_view.refining()) && !HasFatalFailure()) frame(0.0);
 }
 
 void Stage::lose_device(std::uint64_t chance) {
@@ -147,13 +147,13 @@ void Stage::bring_into_sight(const std::string& widget) {
     const auto found = widgets().find(widget);
     ASSERT_NE(found, widgets().end()) << "no widget " << widget;
     const app::Box box = found->second, view = app_->view.box;
-    // What floats over the picture, and the line below all, never needs to be scrolled.
-    if (box.centre_x() > view.left && box.centre_x() < view.right) return;
-    // The panels reach down as far as the bar of the history under the picture.
-    if (box.centre_y() > margin && box.centre_y() < widgets().at("timeline").bottom) return;
-    app_->cursor(box.centre_x(), view.centre_y());
+    // What floats over the image, and the line below all, never needs to be scrolled.
+    if (box.center_x() > view.left && box.center_x() < view.right) return;
+    // The panels reach down as far as the bar of the history under the image.
+    if (box.center_y() > margin && box.center_y() < widgets().at("timeline").bottom) return;
+    app_->cursor(box.center_x(), view.center_y());
     frames(1);
-    app_->scroll(0, box.centre_y() < margin ? 1 : -1);
+    app_->scroll(0, box.center_y() < margin ? 1 : -1);
     frames(1);
   }
   FAIL() << widget << " cannot be scrolled to";
@@ -163,7 +163,7 @@ void Stage::click(const std::string& widget) {
   bring_into_sight(widget);
   const auto found = widgets().find(widget);
   ASSERT_NE(found, widgets().end()) << "no widget " << widget;
-  app_->cursor(found->second.centre_x(), found->second.centre_y());
+  app_->cursor(found->second.center_x(), found->second.center_y());
   frames(1);
   app_->mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
   frames(1);

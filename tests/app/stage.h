@@ -20,7 +20,7 @@
 
 namespace aspic::test {
 
-/// Where the widgets of the last picture were, and what their tooltips say, by name.
+/// Where the widgets of the last image were, and what their tooltips say, by name.
 class WidgetLog final : public app::WidgetWatcher {
  public:
   std::map<std::string, app::Box> boxes;
@@ -28,7 +28,7 @@ class WidgetLog final : public app::WidgetWatcher {
 
   void widget(const std::string& name, const app::Box& box) override { making_[name] = box; }
   void tooltip(const app::Box& box, const std::string& text) override { tooltips_.emplace_back(box, text); }
-  void end_of_picture() override;
+  void end_of_image() override;
 
  private:
   std::map<std::string, app::Box> making_;
@@ -41,11 +41,11 @@ class Stage : public ::testing::Test {
   void SetUp() override;
   void TearDown() override;
 
-  /// Width and height of the window; the display has 1920 × 1080. Small, for pictures cost by the pixel;
+  /// Width and height of the window; the display has 1920 × 1080. Small, for images cost by the pixel;
   /// suites about what is where have `roomy`, in which panels stand on both sides.
   virtual std::array<int, 2> window_size() const { return {640, 400}; }
   static constexpr std::array<int, 2> roomy = {1280, 720};
-  /// Whether pictures are drawn as on hardware.
+  /// Whether images are drawn as on hardware.
   virtual bool full_quality() const { return false; }
   /// Opens the app on a scene, on a backend by its name (empty: automatic); before any other call.
   void open(const std::string& scene, std::vector<std::string> overrides = {}, std::string_view backend = "");
@@ -59,15 +59,15 @@ class Stage : public ::testing::Test {
 
   app::App& app() { return *app_; }
   PlaybackSession& simulation() { return app_->simulation; }
-  /// One picture, so many seconds after the last.
+  /// One image, so many seconds after the last.
   void frame(double apart = 1.0 / 60.0);
-  /// Pictures, so many seconds apart; at rest as many more, in no time, as the fine picture needs.
+  /// Images, so many seconds apart; at rest as many more, in no time, as the fine image needs.
   void frames(int count, double apart = 1.0 / 60.0);
-  /// Pictures until the run is at that step or beyond; a failure after ten thousand.
+  /// Images until the run is at that step or beyond; a failure after ten thousand.
   void frames_to_step(std::uint64_t step) {
     frames_until([&] { return simulation().step() >= step; });
   }
-  /// Pictures until a condition holds; a failure after ten thousand.
+  /// Images until a condition holds; a failure after ten thousand.
   template <class Condition>
   void frames_until(Condition condition) {
     for (int i = 0; !condition(); ++i) {
@@ -75,10 +75,10 @@ class Stage : public ::testing::Test {
       frames(1);
     }
   }
-  /// Pictures until the camera stands still.
+  /// Images until the camera stands still.
   void frames_to_rest();
 
-  /// The device is lost, as the `chance`-th look for it from now on finds (0: the next); pictures go on until
+  /// The device is lost, as the `chance`-th look for it from now on finds (0: the next); images go on until
   /// the window is replaced.
   void lose_device(std::uint64_t chance);
   gl::Context& context() { return window_->context(); }
@@ -93,16 +93,16 @@ class Stage : public ::testing::Test {
   bool has(const std::string& widget) const { return widgets().contains(widget); }
   const std::map<std::string, app::Box>& widgets() const { return log_.boxes; }
   const std::map<std::string, std::string>& explanations() const { return log_.explanations; }
-  double middle_x() { return app_->view.box.centre_x(); }
-  double middle_y() { return app_->view.box.centre_y(); }
+  double middle_x() { return app_->view.box.center_x(); }
+  double middle_y() { return app_->view.box.center_y(); }
 
   /// Pixels of a window unit, as on a dense display under Wayland; the window has as many pixels as before.
   double pixels_per_unit = 1.0;
-  /// Another size of the window; takes two pictures.
+  /// Another size of the window; takes two images.
   void resize(int width, int height);
   /// Pixels of the window, RGB, rows from the bottom.
   std::vector<unsigned char> pixels() const;
-  /// The same as a picture, rows from the top.
+  /// The same as an image, rows from the top.
   Image image() const;
   /// The clipboard, which tests keep to themselves.
   std::string clipboard;
@@ -116,7 +116,7 @@ class Stage : public ::testing::Test {
   std::vector<std::string> severe_;  // messages of the driver
   WidgetLog log_;
   std::unique_ptr<app::App> app_;
-  int held_modifiers_ = 0;  // by press(), until the next picture
+  int held_modifiers_ = 0;  // by press(), until the next image
 };
 
 /// Hash of the reference's state of a scene after some steps.

@@ -210,10 +210,10 @@ TEST_P(TimeOnBackend, ArrowsOfThePastAreOfTheInputsThen) {
   simulation().set_hand(Pull{999, place + Vec3{1.0, 1.0, 0.0}, 2000.0, 40.0});
   run_to(simulation().step() + 20);
   frames(2);
-  EXPECT_NE(app().picture.arrow_legend().title, "arrows") << "a force has a scale";
+  EXPECT_NE(app().image.arrow_legend().title, "arrows") << "a force has a scale";
   go_to({simulation().playback().here().stretch, 5});
   frames(2);
-  EXPECT_EQ(app().picture.arrow_legend().title, "arrows") << "nobody pulled yet";
+  EXPECT_EQ(app().image.arrow_legend().title, "arrows") << "nobody pulled yet";
 }
 
 TEST_P(TimeOnBackend, PinsAndThrownBallsComeAndGoWithTime) {
@@ -272,7 +272,7 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
   for (const DifferenceSample& d : simulation().samples().differences()) {
     EXPECT_TRUE(d.identical) << d.time;
     EXPECT_EQ(d.ulp, 0u);
-    EXPECT_EQ(d.metres, 0.0);
+    EXPECT_EQ(d.meters, 0.0);
   }
   EXPECT_FALSE(simulation().samples().ever_differed());
   EXPECT_EQ(simulation().present().engines().shadow().solver.get()->model().ball_count(), 1u);
@@ -312,7 +312,7 @@ TEST_F(Time, ADifferenceIsShown) {
   EXPECT_TRUE(simulation().samples().ever_differed());
   EXPECT_FALSE(simulation().samples().differences().back().identical);
   EXPECT_GE(simulation().samples().differences().back().ulp, 1u);
-  EXPECT_GT(simulation().samples().differences().back().metres, 0.0);
+  EXPECT_GT(simulation().samples().differences().back().meters, 0.0);
 }
 
 TEST_F(Time, ValuesOfTheSceneGoBackAndForthWithTime) {
@@ -439,11 +439,11 @@ TEST_F(Time, TheBarGoesToAnyTime) {
   const double last = simulation().time();
   frames(2);
   const app::Box bar = widgets().at("timeline");
-  app().cursor(bar.right - 8.0, bar.centre_y());
+  app().cursor(bar.right - 8.0, bar.center_y());
   frames(1);
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
   for (const double share : {0.9, 0.3, 0.5}) {
-    app().cursor(bar.left + share * (bar.right - bar.left), bar.centre_y());
+    app().cursor(bar.left + share * (bar.right - bar.left), bar.center_y());
     frames(2);
   }
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);

@@ -1,5 +1,5 @@
 // The default view of every built-in scene as the window shows it, at its start and after some steps, without
-// panels: byte for byte what the renderer draws by itself, which tests/render holds against golden pictures.
+// panels: byte for byte what the renderer draws by itself, which tests/render holds against golden images.
 #include "app/stage.h"
 #include "aspic/scene.h"
 #include "render/read_back.h"
@@ -55,7 +55,7 @@ const std::vector<View>& views() {
 class Views : public Stage, public ::testing::WithParamInterface<View> {
  protected:
   std::array<int, 2> window_size() const override { return {480, 270}; }
-  bool full_quality() const override { return true; }  // whatever the time pictures take
+  bool full_quality() const override { return true; }  // whatever the time images take
 
   /// The same moment by a renderer of our own.
   Image drawn() {
@@ -67,7 +67,7 @@ class Views : public Stage, public ::testing::WithParamInterface<View> {
     }
     const Scene& scene = app().scene.editor().scene();
     const Following following(scene, simulation().model(), Precision::single);
-    PictureOptions options;
+    ImageOptions options;
     options.view = scene.view;
     options.view.camera =
         moved(scene.view.camera, following.offset(simulation().model(), simulation().snapshot()));
@@ -82,7 +82,7 @@ class Views : public Stage, public ::testing::WithParamInterface<View> {
   std::unique_ptr<Renderer> renderer_;
 };
 
-TEST_P(Views, AreTheRenderersPictures) {
+TEST_P(Views, AreTheRenderersImages) {
   const View& view = GetParam();
   open(view.scene, {}, "reference");
   app().messages.dismiss();  // warnings of the scene
@@ -90,9 +90,9 @@ TEST_P(Views, AreTheRenderersPictures) {
   frames(30);
   const Image start = image();
   EXPECT_EQ(start.rgb, drawn().rgb);
-  // Step by step and without pictures on the way: balls turn from one picture to the next.
+  // Step by step and without images on the way: balls turn from one image to the next.
   for (int i = 0; i < view.steps; ++i) type(U'.');
-  ASSERT_TRUE(simulation().settle().ok());  // a large cube steps beside the pictures
+  ASSERT_TRUE(simulation().settle().ok());  // a large cube steps beside the images
   ASSERT_EQ(simulation().step(), static_cast<std::uint64_t>(view.steps));
   EXPECT_FALSE(app().messages.notice().has_value()) << app().messages.notice()->text;
   frames(30);

@@ -166,9 +166,9 @@ NUMBERS = ["", "-1", "0", "1e400", "nan", "inf", "-inf", "0x10", "1,5", " 7", "9
            "99999999999999999999", "1e19", "\x1b[2J", "\xff", "½", "1" * 5000, "--", "-"]
 
 
-# Without pictures these options are refused whatever their values.
-OF_PICTURES = ("--fps", "--speed", "--size", "--text", "--frames-format")
-PICTURES = ["--frames", "pictures", "--force"]
+# Without images these options are refused whatever their values.
+OF_IMAGES = ("--fps", "--speed", "--size", "--text", "--frames-format")
+IMAGES = ["--frames", "images", "--force"]
 
 
 def options(attack):
@@ -177,10 +177,10 @@ def options(attack):
     for option in ("--steps", "--duration", "--every", "--fps", "--speed", "--size", "--backend", "--precision", "--force-path", "--text",
                    "--frames-format"):
         for value in NUMBERS:
-            extra = ["--series", "s.csv", "--force"] if option == "--every" else PICTURES if option in OF_PICTURES else []
+            extra = ["--series", "s.csv", "--force"] if option == "--every" else IMAGES if option in OF_IMAGES else []
             short = [] if option in ("--steps", "--duration") else ["--steps", "2"]
             done = attack.run(*run, *short, *extra, option, value.encode("utf-8", "surrogateescape"), timeout=30)
-            attack.judge(done, [OK, USAGE, SCENE, *([DEVICE] if extra == PICTURES else [])], f"{option} {value[:40]!r}")
+            attack.judge(done, [OK, USAGE, SCENE, *([DEVICE] if extra == IMAGES else [])], f"{option} {value[:40]!r}")
     for value in NUMBERS:
         for words in (["compare", "cube-plane", *TINY, "--backends", "reference,reference:double", "--steps", value],
                       ["compare", "cube-plane", *TINY, "--backends", "reference,reference:double", "--steps", "1", "--tolerance", value],
@@ -197,7 +197,7 @@ def options(attack):
         done = attack.run("scene", "show", "cube-plane", "--set", argument, timeout=20)
         attack.judge(done, [USAGE, SCENE], f"--set {argument[:40]!r}")
         attack.require(len(done.err) < 200000, f"--set {argument[:40]!r}: a message of {len(done.err)} bytes")
-        done = attack.run(*run, *PICTURES, "--steps", "1", "--view", argument, timeout=20)
+        done = attack.run(*run, *IMAGES, "--steps", "1", "--view", argument, timeout=20)
         attack.judge(done, [OK, USAGE, SCENE], f"--view {argument[:40]!r}")
     for value in range(300 if attack.thorough else 60):
         word = "".join(random.choice("abc=.[]{}\"'\\-0123456789eE,\x1b\u202e\n\t ") for _ in range(random.randrange(1, 40)))

@@ -18,7 +18,7 @@ def one(attack, words, note, wanted, **more):
 
 
 def determinism(attack):
-    """Repeats, backends, threads, vector widths, locales, cores, filming."""
+    """Repeats, backends, threads, vector widths, locales, cores, recording."""
     for scene in SCENES:
         words = [*scene, "--steps", STEPS]
         first = attack.run("run", *words, "--backend", "reference")
@@ -39,10 +39,10 @@ def determinism(attack):
         for locale in ("C", "de_DE.UTF-8", "tr_TR.UTF-8", "C.UTF-8"):
             one(attack, gpu, f"{locale}, {scene[0]}", wanted, env={"LC_ALL": locale})
         one(attack, [*words, "--backend", "reference", "--series", attack.path("s.csv"), "--every", "7", "--force"], f"with a series, {scene[0]}", wanted)
-    film = [*SCENES[0], "--steps", STEPS, "--backend", "gpu"]
-    wanted = hash_in(attack.run("run", *film))
-    one(attack, [*film, "--frames", attack.path("frames"), "--size", "64x64", "--fps", "60"], "filmed", wanted)
-    one(attack, [*film, "--video", attack.path("f.mp4"), "--size", "64x64", "--fps", "31", "--view", "colour=strain"], "filmed in strain", wanted)
+    video = [*SCENES[0], "--steps", STEPS, "--backend", "gpu"]
+    wanted = hash_in(attack.run("run", *video))
+    one(attack, [*video, "--frames", attack.path("frames"), "--size", "64x64", "--fps", "60"], "recorded", wanted)
+    one(attack, [*video, "--video", attack.path("f.mp4"), "--size", "64x64", "--fps", "31", "--view", "color=strain"], "recorded in strain", wanted)
 
 
 def pieces(attack):

@@ -69,7 +69,7 @@ class Bench:
                 continue
             whole = self.complete.get(name)
             same = content in (self.before.get(name), whole)
-            # The seconds that a run took are not in any of these files; films differ in nothing either.
+            # The seconds that a run took are not in any of these files; videos differ in nothing either.
             attack.require(same, f"{note}: {name} is neither as before nor whole ({len(content)} of {len(whole or b'')} bytes)")
         for name in self.before:
             attack.require(os.path.exists(os.path.join(self.directory, name)), f"{note}: {name} is gone")
@@ -171,13 +171,13 @@ def allocations(attack):
 
 
 GPU = ["run", "cube-plane", "--backend", "gpu", *TINY, "--steps", "12", *SERIES]
-FILM = ["run", "cube-plane", "--backend", "gpu", *TINY, "--set", "simulation.timestep=0.002", "--duration", "0.1", "--fps", "60",
-        "--video", "film.mp4", "--size", "64x64", "--text", "off", "--frames", "pictures"]
+VIDEO = ["run", "cube-plane", "--backend", "gpu", *TINY, "--set", "simulation.timestep=0.002", "--duration", "0.1", "--fps", "60",
+        "--video", "video.mp4", "--size", "64x64", "--text", "off", "--frames", "images"]
 
 
 def device_allocations(attack):
-    """The same for what the program itself allocates with a device and with films; drivers are not asked."""
-    for words, most in ((GPU, 40), (FILM, 16)):
+    """The same for what the program itself allocates with a device and with videos; drivers are not asked."""
+    for words, most in ((GPU, 40), (VIDEO, 16)):
         bench = Bench(attack, words, {})
         stride = 1 if attack.thorough else max(1, bench.counts["own"] // most)
         for n in range(1, bench.counts["own"] + 1, stride):
@@ -185,9 +185,9 @@ def device_allocations(attack):
         nothing_comes_later(bench)
 
 
-def films(attack):
-    """A full disk and failing operations while a film is made."""
-    bench = Bench(attack, FILM, {})
+def videos(attack):
+    """A full disk and failing operations while a video is made."""
+    bench = Bench(attack, VIDEO, {})
     for n in range(1, bench.counts["file"] + 1, 1 if attack.thorough else 4):
         bench.strike(f"file:{n}", [OK, IO])
     for n in range(1, bench.counts["disk"] + 1, 1 if attack.thorough else 5):
@@ -205,8 +205,8 @@ def ffmpeg(attack):
     tool = os.path.join(directory, "bin")
     os.mkdir(tool)
     endings = ["echo 'no space left' >&2; exit 1", "kill -9 $$", "exit 1", "exit 0"]
-    bench = Bench(attack, FILM, {})
-    frames = len([n for n in bench.complete if n.startswith("pictures/")])
+    bench = Bench(attack, VIDEO, {})
+    frames = len([n for n in bench.complete if n.startswith("images/")])
     for count in range(frames + 1):
         for ending in endings if attack.thorough or count in (0, 1, frames) else endings[:1]:
             write(os.path.join(tool, "ffmpeg"),
@@ -214,15 +214,15 @@ def ffmpeg(attack):
             os.chmod(os.path.join(tool, "ffmpeg"), 0o755)
             there = attack.fresh()
             write(os.path.join(there, "earlier.mp4"), "earlier")
-            done = attack.run(*FILM, env={"PATH": f"{tool}:/usr/bin:/bin"}, cwd=there, timeout=120)
+            done = attack.run(*VIDEO, env={"PATH": f"{tool}:/usr/bin:/bin"}, cwd=there, timeout=120)
             note = f"ffmpeg after {count} frames: {ending}"
             attack.judge(done, [IO], note)
             attack.leaves_nothing(there, note)
             if done.code != OK:
-                attack.require(not os.path.exists(os.path.join(there, "film.mp4")), f"{note}: a film is there")
-            attack.require(read(os.path.join(there, "earlier.mp4")) == b"earlier", f"{note}: an earlier film has changed")
-            pictures = {os.path.relpath(p, there): read(p) for p in all_files(os.path.join(there, "pictures"))}
-            attack.require(pictures == {n: c for n, c in bench.complete.items() if n.startswith("pictures/")}, f"{note}: {sorted(pictures)}")
+                attack.require(not os.path.exists(os.path.join(there, "video.mp4")), f"{note}: a video is there")
+            attack.require(read(os.path.join(there, "earlier.mp4")) == b"earlier", f"{note}: an earlier video has changed")
+            images = {os.path.relpath(p, there): read(p) for p in all_files(os.path.join(there, "images"))}
+            attack.require(images == {n: c for n, c in bench.complete.items() if n.startswith("images/")}, f"{note}: {sorted(images)}")
 
 
 def device(attack):
@@ -230,7 +230,7 @@ def device(attack):
     implicit = ["run", "cube-plane", "--backend", "gpu", *TINY, "--set", "simulation.integrator=implicit-euler", "--steps", "3", *SERIES]
     balls = ["run", "cube-and-balls", "--backend", "gpu", *TINY, "--steps", "4", *SERIES]
     per_spring = [*GPU, "--force-path", "per-spring"]
-    for words, most in ((GPU, 25), (per_spring, 20), (implicit, 30), (balls, 30), (FILM, 12)):
+    for words, most in ((GPU, 25), (per_spring, 20), (implicit, 30), (balls, 30), (VIDEO, 12)):
         bench = Bench(attack, words, {})
         stride = 1 if attack.thorough else max(1, bench.counts["pass"] // most)
         # The last read-backs come after the last look at the device that steps need.
@@ -240,4 +240,4 @@ def device(attack):
         attack.require(missed <= len(chances) // 5, f"{missed} of {len(chances)} passes were never reached")
 
 
-main({f.__name__: f for f in (files, file_kills, allocations, device_allocations, films, ffmpeg, device)})
+main({f.__name__: f for f in (files, file_kills, allocations, device_allocations, videos, ffmpeg, device)})

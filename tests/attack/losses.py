@@ -14,7 +14,7 @@ RUN = ["run", "cube-plane", *TINY, "--backend", "reference", "--steps", "12"]
 LONG = ["run", "cube-plane", *TINY, "--backend", "reference", "--steps", "1000000000"]
 FILES = ["--series", "series.csv", "--state", "end.csv", "--checkpoint", "end.aspic"]
 NAMES = ("end.aspic", "end.csv", "series.csv")
-PICTURES = ["--size", "64x64", "--text", "off", "--fps", "60"]
+IMAGES = ["--size", "64x64", "--text", "off", "--fps", "60"]
 SIDE = 64
 FRAME = 3 * SIDE * SIDE
 
@@ -92,15 +92,15 @@ def links(attack):
     late = attack.run(*LONG, "--state", "end.csv", "--state-every", "100", cwd=there, timeout=20)
     attack.judge(late, [IO], "a state of a later step is there")
     attack.require(names(there) == ["end-00000900.csv", "link.csv"], f"a state of a later step is there: left {names(there)}")
-    film = ["run", "cube-plane", *TINY, "--backend", "reference", "--steps", "40", *PICTURES]
+    video = ["run", "cube-plane", *TINY, "--backend", "reference", "--steps", "40", *IMAGES]
     there = attack.fresh()
     os.mkdir(os.path.join(there, "disk"))
-    os.symlink("disk/target.mp4", os.path.join(there, "film.mp4"))
-    attack.judge(attack.run(*film, "--video", "film.mp4", cwd=there), [OK], "a film through a link to nothing")
-    attack.require(os.path.islink(os.path.join(there, "film.mp4")) and os.path.getsize(os.path.join(there, "disk", "target.mp4")) > 0,
-                   "a film through a link to nothing: not there")
-    os.symlink("nowhere", os.path.join(there, "pictures"))
-    attack.judge(attack.run(*film, "--frames", "pictures", "--force", cwd=there), [IO], "pictures through a link to nothing")
+    os.symlink("disk/target.mp4", os.path.join(there, "video.mp4"))
+    attack.judge(attack.run(*video, "--video", "video.mp4", cwd=there), [OK], "a video through a link to nothing")
+    attack.require(os.path.islink(os.path.join(there, "video.mp4")) and os.path.getsize(os.path.join(there, "disk", "target.mp4")) > 0,
+                   "a video through a link to nothing: not there")
+    os.symlink("nowhere", os.path.join(there, "images"))
+    attack.judge(attack.run(*video, "--frames", "images", "--force", cwd=there), [IO], "images through a link to nothing")
     os.symlink("disk/sweep.csv", os.path.join(there, "sweep.csv"))
     attack.judge(attack.run("sweep", "cube-plane", *TINY, "--steps", "2", "--backend", "reference", "--vary", "contact.friction=0.1,0.2", "--out", "sweep.csv",
                             cwd=there), [OK], "a sweep through a link to nothing")
@@ -170,14 +170,14 @@ def tool(attack, name, script):
 
 
 UNSEEN = ["run", "cube-plane", *TINY, "--backend", "reference", "--set", "simulation.timestep=0.002"]
-FILM = [*UNSEEN, *PICTURES]
+VIDEO = [*UNSEEN, *IMAGES]
 DYING = {
     "dies at once": "exit 1",
     "dies with a message": f"head -c {2 * FRAME} > /dev/null; echo 'no space left' >&2; exit 1",
     "is killed": f"head -c {2 * FRAME} > /dev/null; kill -9 $$",
     "ends silently": f"head -c {FRAME} > /dev/null; echo half > \"$file\"; exit 3",
     "ends well at once": "exit 0",
-    "ends well after two pictures": f"head -c {2 * FRAME} > /dev/null; echo half > \"$file\"; exit 0",
+    "ends well after two images": f"head -c {2 * FRAME} > /dev/null; echo half > \"$file\"; exit 0",
     "reads all and writes nothing": "cat > /dev/null; exit 0",
     "reads all and writes half a header": "cat > /dev/null; printf '\\000\\000\\000\\040ftypisom' > \"$file\"; exit 0",
     "reads all and writes noise": "cat > \"$file\"; exit 0",
@@ -186,23 +186,23 @@ DYING = {
 
 
 def encoders(attack):
-    """An ffmpeg that dies, or reports success without a film: the film alone is lost."""
+    """An ffmpeg that dies, or reports success without a video: the video alone is lost."""
     plain = attack.fresh()
-    film = [*FILM, "--duration", "0.2"]
+    video = [*VIDEO, "--duration", "0.2"]
     whole = attack.run(*UNSEEN, "--duration", "0.2", *FILES, cwd=plain)
-    attack.judge(whole, [OK], "without a film")
+    attack.judge(whole, [OK], "without a video")
 
     def struck(note, env):
         there = attack.fresh()
-        write(os.path.join(there, "film.mp4"), "earlier")
-        done = attack.run(*film, *FILES, "--force", "--video", "film.mp4", cwd=there, env=env)
+        write(os.path.join(there, "video.mp4"), "earlier")
+        done = attack.run(*video, *FILES, "--force", "--video", "video.mp4", cwd=there, env=env)
         attack.judge(done, [IO], note)
         attack.require(b"cannot make the video" in done.err and b"All other files of the run are complete." in done.err, f"{note}: says {done}")
         attack.require(hash_in(done) == hash_in(whole), f"{note}: the run did not go on to its end: {done.out[:500]}")
         for name in NAMES:
             path = os.path.join(there, name)
             attack.require(os.path.exists(path) and read(path) == read(os.path.join(plain, name)), f"{note}: {name} is not whole")
-        attack.require(read(os.path.join(there, "film.mp4")) == b"earlier", f"{note}: the earlier film has changed")
+        attack.require(read(os.path.join(there, "video.mp4")) == b"earlier", f"{note}: the earlier video has changed")
         attack.leaves_nothing(there, note)
 
     def first(name, script):
@@ -216,22 +216,22 @@ def encoders(attack):
         for name in ("sh", "cat", "head", "rm"):
             os.symlink(shutil.which(name), os.path.join(alone, name))
         struck(f"an ffmpeg that {what}, without ffprobe", {"PATH": alone})
-    # A broken ffprobe tells nothing of the film.
+    # A broken ffprobe tells nothing of the video.
     for what, script in {"cannot start": "exit 127", "is killed": "kill -9 $$"}.items():
         there = attack.fresh()
-        attack.judge(attack.run(*film, "--video", "film.mp4", cwd=there, env=first("ffprobe", script)), [OK], f"an ffprobe that {what}")
-        attack.require(names(there) == ["film.mp4"], f"an ffprobe that {what}: left {names(there)}")
-    # Pictures of the same run go on without the film, and alone it ends at once.
+        attack.judge(attack.run(*video, "--video", "video.mp4", cwd=there, env=first("ffprobe", script)), [OK], f"an ffprobe that {what}")
+        attack.require(names(there) == ["video.mp4"], f"an ffprobe that {what}: left {names(there)}")
+    # Images of the same run go on without the video, and alone it ends at once.
     there = attack.fresh()
     env = first("ffmpeg", DYING["is killed"])
-    attack.judge(attack.run(*film, "--video", "film.mp4", "--frames", "pictures", cwd=there, env=env), [IO], "pictures and a film that dies")
-    attack.require(len(names(os.path.join(there, "pictures"))) == 13, f"pictures and a film that dies: {names(there)}")
-    attack.judge(attack.run(*FILM, "--duration", "100000", "--video", "film.mp4", cwd=there, env=env, timeout=40), [IO], "a film alone that dies")
+    attack.judge(attack.run(*video, "--video", "video.mp4", "--frames", "images", cwd=there, env=env), [IO], "images and a video that dies")
+    attack.require(len(names(os.path.join(there, "images"))) == 13, f"images and a video that dies: {names(there)}")
+    attack.judge(attack.run(*VIDEO, "--duration", "100000", "--video", "video.mp4", cwd=there, env=env, timeout=40), [IO], "a video alone that dies")
     # Side by side too.
     there = attack.fresh()
-    beside = ["--variant", "integrator=midpoint", "--state", "end.csv", "--video", "film.mp4"]
-    attack.judge(attack.run(*film, *beside, cwd=there, env=env), [IO], "side by side, a film that dies")
-    attack.require(names(there) == ["end-1.csv", "end-2.csv"], f"side by side, a film that dies: left {names(there)}")
+    beside = ["--variant", "integrator=midpoint", "--state", "end.csv", "--video", "video.mp4"]
+    attack.judge(attack.run(*video, *beside, cwd=there, env=env), [IO], "side by side, a video that dies")
+    attack.require(names(there) == ["end-1.csv", "end-2.csv"], f"side by side, a video that dies: left {names(there)}")
 
 
 HANGING = {
@@ -244,12 +244,12 @@ HANGING = {
 
 
 def halts(attack):
-    """An ffmpeg that hangs: one Ctrl-C ends the run within seconds, with everything but the film."""
+    """An ffmpeg that hangs: one Ctrl-C ends the run within seconds, with everything but the video."""
     children = []
     for what, script in HANGING.items():
         there = attack.fresh()
         env = {"PATH": f"{tool(attack, 'ffmpeg', script)}:{os.environ['PATH']}"}
-        words = [*FILM, "--duration", "1000", *FILES, "--every", "1000000", "--video", "film.mp4"]
+        words = [*VIDEO, "--duration", "1000", *FILES, "--every", "1000000", "--video", "video.mp4"]
         children.append((f"an ffmpeg that {what}", there, start(attack, words, there, env)))
     for note, there, child in children:
         attack.require(wait_until(lambda c=child, d=there: handles(c, signal.SIGINT) and len(names(d)) >= 4), f"{note}: it did not begin")
@@ -262,21 +262,21 @@ def halts(attack):
         attack.require(names(there) == sorted(NAMES), f"{note}: left {names(there)}")
 
 
-def pictures(attack):
-    """Earlier pictures stay until the first new one is there."""
+def images(attack):
+    """Earlier images stay until the first new one is there."""
     there = attack.fresh()
-    old = os.path.join(there, "pictures")
+    old = os.path.join(there, "images")
     os.mkdir(old)
     for n in range(3):
         write(os.path.join(old, f"frame-{n:06}.png"), f"earlier {n}")
     write(os.path.join(old, "frame-000001.jpg"), "earlier")
     kept = {p: read(p) for p in all_files(old)}
-    words = [*FILM, "--duration", "0.02", "--frames", "pictures", "--force"]
+    words = [*VIDEO, "--duration", "0.02", "--frames", "images", "--force"]
     nothing = {"__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent", "ASPIC_EGL_DEVICE": None}
     attack.judge(attack.run(*words, cwd=there, env=nothing), [DEVICE], "without a device")
-    attack.judge(attack.run(*words, "--view", "colour=loud", cwd=there), [SCENE], "with a wrong view")
-    attack.judge(attack.run(*words, "--speed", "1e-300", cwd=there), [USAGE], "with endless pictures")
-    attack.require({p: read(p) for p in all_files(old)} == kept, f"earlier pictures are gone: {names(there)}")
+    attack.judge(attack.run(*words, "--view", "color=loud", cwd=there), [SCENE], "with a wrong view")
+    attack.judge(attack.run(*words, "--speed", "1e-300", cwd=there), [USAGE], "with endless images")
+    attack.require({p: read(p) for p in all_files(old)} == kept, f"earlier images are gone: {names(there)}")
     attack.judge(attack.run(*words, cwd=there), [OK], "with a device")
     attack.require(names(old) == ["frame-000000.png", "frame-000001.png", "frame-000002.png"] and
                    not any(read(p).startswith(b"earlier") for p in all_files(old)), f"with a device: left {names(old)}")
@@ -387,4 +387,4 @@ def sweep_owner(attack, grid, directory):
     return line
 
 
-main({f.__name__: f for f in (links, hangups, encoders, halts, pictures, pipes, endless)})
+main({f.__name__: f for f in (links, hangups, encoders, halts, images, pipes, endless)})

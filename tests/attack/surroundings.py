@@ -12,7 +12,7 @@ from attack import DEVICE, INTERRUPTED, IO, OK, SCENE, TINY, USAGE, all_files, h
 
 RUN = ["run", "cube-plane", *TINY, "--steps", "12", "--backend", "reference"]
 FILES = ["--series", "series.csv", "--state", "end.csv", "--checkpoint", "end.aspic"]
-FILM = ["run", "cube-plane", *TINY, "--duration", "0.02", "--backend", "gpu", "--size", "64x64", "--video", "film.mp4", "--text", "off"]
+VIDEO = ["run", "cube-plane", *TINY, "--duration", "0.02", "--backend", "gpu", "--size", "64x64", "--video", "video.mp4", "--text", "off"]
 
 
 def after(attack, done, directory, codes, note, fatal_allowed=False):
@@ -23,7 +23,7 @@ def after(attack, done, directory, codes, note, fatal_allowed=False):
         attack.judge(done, codes, note)
     attack.leaves_nothing(directory, note)
     if done.code != OK:
-        attack.require(not os.path.exists(os.path.join(directory, "film.mp4")), f"{note}: a film was left")
+        attack.require(not os.path.exists(os.path.join(directory, "video.mp4")), f"{note}: a video was left")
 
 
 def resources(attack):
@@ -48,17 +48,17 @@ def resources(attack):
         limited(["run", "cube-plane", *TINY, "--steps", "3", "--backend", "gpu"], [(resource.RLIMIT_AS, size * mib)], [OK, SCENE, DEVICE, IO],
                 f"{size} MiB, gpu", True)
     for size in (420, 470, 540, 630) if not attack.thorough else range(300, 1000, 10):
-        limited(FILM, [(resource.RLIMIT_AS, size * mib)], [OK, SCENE, DEVICE, IO], f"{size} MiB, film", True, 120)
+        limited(VIDEO, [(resource.RLIMIT_AS, size * mib)], [OK, SCENE, DEVICE, IO], f"{size} MiB, video", True, 120)
     for size in (0, 1, 100, 4096, 12000):
         limited([*RUN, *FILES], [(resource.RLIMIT_FSIZE, size)], [OK, IO], f"files of {size} bytes")
-    limited(FILM, [(resource.RLIMIT_FSIZE, 500)], [IO], "a film of 500 bytes")
+    limited(VIDEO, [(resource.RLIMIT_FSIZE, 500)], [IO], "a video of 500 bytes")
     for kib in (64, 128, 256, 1024):
         limited([*RUN, *FILES], [(resource.RLIMIT_STACK, kib << 10)], [OK, IO], f"{kib} KiB of stack", kib < 256)
-    limited(FILM, [(resource.RLIMIT_STACK, 256 << 10)], [OK, DEVICE, IO], "256 KiB of stack, film", True)
+    limited(VIDEO, [(resource.RLIMIT_STACK, 256 << 10)], [OK, DEVICE, IO], "256 KiB of stack, video", True)
     for count in range(3, 14):
         limited([*RUN, *FILES], [(resource.RLIMIT_NOFILE, count)], [OK, IO, 127], f"{count} descriptors")
     for count in (6, 9, 12, 16):
-        limited(FILM, [(resource.RLIMIT_NOFILE, count)], [OK, DEVICE, IO], f"{count} descriptors, film")
+        limited(VIDEO, [(resource.RLIMIT_NOFILE, count)], [OK, DEVICE, IO], f"{count} descriptors, video")
     limited([*RUN, *FILES], [(resource.RLIMIT_CORE, 0), (resource.RLIMIT_NPROC, 1)], [OK, IO], "one process")
 
 
@@ -156,11 +156,11 @@ def outputs(attack):
 
 
 def kills(attack):
-    """Signals at random times of long runs, with and without pictures."""
+    """Signals at random times of long runs, with and without images."""
     long_run = ["run", "cube-plane", "--backend", "reference", "--set", "cube[0].particles-per-edge=4", "--steps", "100000000", *FILES]
-    film = ["run", "cube-plane", *TINY, "--backend", "gpu", "--duration", "100", "--size", "64x64", "--video", "film.mp4", "--checkpoint", "end.aspic"]
+    video = ["run", "cube-plane", *TINY, "--backend", "gpu", "--duration", "100", "--size", "64x64", "--video", "video.mp4", "--checkpoint", "end.aspic"]
     plan = [(long_run, s) for s in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL, signal.SIGHUP)] * (10 if attack.thorough else 3)
-    plan += [(film, s) for s in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)] * (5 if attack.thorough else 1)
+    plan += [(video, s) for s in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)] * (5 if attack.thorough else 1)
     for words, number in plan:
         there = attack.fresh()
         write(os.path.join(there, "end.aspic"), "earlier")
@@ -182,15 +182,15 @@ def kills(attack):
             done = attack.run("run", "--resume", checkpoint, "--steps", str(reached + 2), "--backend", "reference")
             attack.judge(done, [OK], f"{note}: resuming")
             attack.leaves_nothing(there, note)
-            if words is film:
-                probe = subprocess.run(["ffprobe", "-v", "error", os.path.join(there, "film.mp4")], capture_output=True, check=False)
-                attack.require(probe.returncode == 0, f"{note}: the film is broken")
+            if words is video:
+                probe = subprocess.run(["ffprobe", "-v", "error", os.path.join(there, "video.mp4")], capture_output=True, check=False)
+                attack.require(probe.returncode == 0, f"{note}: the video is broken")
         else:
             attack.require(child.returncode == -number, note)
             if number != signal.SIGKILL:
                 attack.leaves_nothing(there, note)
             attack.require(read(checkpoint) == b"earlier", f"{note}: the earlier checkpoint has changed")
-            attack.require(not os.path.exists(os.path.join(there, "film.mp4")), f"{note}: a film was left")
+            attack.require(not os.path.exists(os.path.join(there, "video.mp4")), f"{note}: a video was left")
 
 
 def environment(attack):

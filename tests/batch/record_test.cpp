@@ -34,7 +34,7 @@ TEST(BatchRecord, HasTheFiguresOfEachRunAlone) {
   const std::vector<SharedModel> models = models_of(34);
   Batch batch = take(Batch::create(models, {2}));
   const BatchRecord record =
-      take(batch.run(0.1, 0.03, {.centre_of_mass = true, .momentum = true, .energies = true, .body = 0}));
+      take(batch.run(0.1, 0.03, {.center_of_mass = true, .momentum = true, .energies = true, .body = 0}));
   ASSERT_EQ(record.instances, 34u);
   ASSERT_EQ(record.times, 5u);
   ASSERT_EQ(record.particles, 64u);
@@ -58,10 +58,10 @@ TEST(BatchRecord, HasTheFiguresOfEachRunAlone) {
       EXPECT_EQ(record.momentum[3 * at + 1], figures.momentum.y);
       for (std::size_t p = 0; p < 64; ++p)
         ASSERT_EQ(static_cast<double>(record.positions[3 * (at * 64 + p) + 2]), state.position[p].z);
-      Vec3 centre;
-      for (const Vec3& x : state.position) centre = centre + 1.0 / 64 * x;
-      EXPECT_NEAR(record.centre_of_mass[3 * at], centre.x, 1e-13);
-      EXPECT_NEAR(record.centre_of_mass[3 * at + 1], centre.y, 1e-13);
+      Vec3 center;
+      for (const Vec3& x : state.position) center = center + 1.0 / 64 * x;
+      EXPECT_NEAR(record.center_of_mass[3 * at], center.x, 1e-13);
+      EXPECT_NEAR(record.center_of_mass[3 * at + 1], center.y, 1e-13);
       if (n + 1 < record.times) continue;
       EXPECT_EQ(record.diverged[i], divergence ? divergence->step : 0);
       EXPECT_EQ(divergence.has_value(), i == 33);
@@ -81,7 +81,7 @@ TEST(BatchRecord, HasTheWorkOfActuators) {
   Inputs inputs;
   inputs.channels = {0.6};
   ASSERT_TRUE(batch.set_inputs(0, inputs).ok());
-  const BatchRecord record = take(batch.run(0.09, 0.03, {.centre_of_mass = false, .actuator_work = true}));
+  const BatchRecord record = take(batch.run(0.09, 0.03, {.center_of_mass = false, .actuator_work = true}));
   ASSERT_EQ(record.actuator_work.size(), 8u);
   const auto solver = test::alone(models[0]);
   ASSERT_TRUE(solver->set_inputs(inputs).ok());
@@ -98,10 +98,10 @@ TEST(BatchRecord, HasTheWorkOfActuators) {
 
 TEST(BatchRecord, HasWhatIsAskedFor) {
   Batch batch = take(Batch::create(models_of(2), {1}));
-  const BatchRecord record = take(batch.run(0.03, 0.01, {.centre_of_mass = false, .momentum = true}));
+  const BatchRecord record = take(batch.run(0.03, 0.01, {.center_of_mass = false, .momentum = true}));
   EXPECT_EQ(record.times, 4u);
   EXPECT_EQ(record.momentum.size(), 2u * 4 * 3);
-  for (const auto* const other : {&record.centre_of_mass, &record.energy, &record.actuator_work})
+  for (const auto* const other : {&record.center_of_mass, &record.energy, &record.actuator_work})
     EXPECT_TRUE(other->empty());
   EXPECT_TRUE(record.positions.empty());
   const BatchRecord again = take(batch.run(0.0, 1.0));  // from where it is

@@ -1,4 +1,4 @@
-// aspic run --variant: each run has the bits, and its part of the film the pixels, of the run alone.
+// aspic run --variant: each run has the bits, and its part of the video the pixels, of the run alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stb_image.h>
@@ -84,24 +84,24 @@ TEST(Comparison, EachRunHasTheBitsOfTheRunAlone) {
 
 TEST(Comparison, TheAuthorIsNamedInTheFirstPartAlone) {
   const test::TemporaryDirectory dir;
-  const auto picture = [&](const std::string& name, const Words& more) {
+  const auto image = [&](const std::string& name, const Words& more) {
     Words words = {"--steps", "0", "--size", "642x240", "--variant", "h=0.002", "--frames", dir.file(name)};
     words.insert(words.end(), more.begin(), more.end());
     const auto finished = run(words);
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
     return read_png(dir.read(name + "/frame-000000.png"));
   };
-  const Pixels nobody = picture("nobody", {}), named = picture("named", {"--set", "author=0356611"});
+  const Pixels nobody = image("nobody", {}), named = image("named", {"--set", "author=0356611"});
   ASSERT_EQ(named.width, 642);
   EXPECT_FALSE(part(named, 0, 0, 320, 240) == part(nobody, 0, 0, 320, 240));
   EXPECT_TRUE(part(named, 322, 0, 320, 240) == part(nobody, 322, 0, 320, 240));
 }
 
-TEST(Comparison, PartsOfThePictureAreThoseOfTheRunsAlone) {
+TEST(Comparison, PartsOfTheImageAreThoseOfTheRunsAlone) {
   const test::TemporaryDirectory dir;
-  const Words film = {"--duration", "0.2", "--fps", "10", "--no-text", "--frames"};
+  const Words video = {"--duration", "0.2", "--fps", "10", "--no-text", "--frames"};
   const auto frames = [&](const std::string& name, const std::string& size, const Words& more) {
-    Words words = film;
+    Words words = video;
     words.insert(words.end(), {dir.file(name), "--size", size});
     words.insert(words.end(), more.begin(), more.end());
     const auto finished = run(words);
@@ -126,7 +126,7 @@ TEST(Comparison, PartsOfThePictureAreThoseOfTheRunsAlone) {
   }
 }
 
-TEST(Comparison, ADivergenceEndsOneRunAndNotTheFilm) {
+TEST(Comparison, ADivergenceEndsOneRunAndNotTheVideo) {
   const test::TemporaryDirectory dir;
   const Words words = {"--duration", "0.3",
                        "--set",      "simulation.timestep=0.003",
@@ -147,10 +147,10 @@ TEST(Comparison, ADivergenceEndsOneRunAndNotTheFilm) {
   EXPECT_TRUE(runs[1]["diverged"].is_null());
   EXPECT_EQ(runs[1]["steps"], 100);
   EXPECT_EQ(runs[1]["state_hash"], json_of(run(alone))["state_hash"]);
-  EXPECT_EQ(json_of(both)["pictures"]["count"], 7);
+  EXPECT_EQ(json_of(both)["images"]["count"], 7);
   EXPECT_EQ(dir.read("e-2.csv"), dir.read("alone.csv"));
   EXPECT_THAT(dir.read("e-1.csv"), Not(HasSubstr("nan")));
-  // The picture of the run that stands still changes no more; the other one's does.
+  // The image of the run that stands still changes no more; the other one's does.
   const Pixels last = read_png(dir.read("f/frame-000006.png")),
                before = read_png(dir.read("f/frame-000005.png"));
   ASSERT_EQ(last.width, 130);

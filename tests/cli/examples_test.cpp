@@ -256,7 +256,7 @@ std::string shortened(const std::string& command, Checks checks) {
 }
 
 bool draws(const Example& example) {
-  return std::regex_search(example.command, std::regex("--(video|frames|pictures)\\b|aspic report"));
+  return std::regex_search(example.command, std::regex("--(video|frames|images)\\b|aspic report"));
 }
 
 /// Runs examples in the order in which they stand, in a directory with the files that a reader would have.
@@ -272,7 +272,7 @@ class Reader {
     const auto scene = test::aspic({"scene", "show", "cube-plane", "--set", "cube[0].particles-per-edge=4"});
     dir_.write("my-scene.toml", scene.out);
     fs::copy_file(fs::path(ASPIC_SOURCE_DIR) / "assets/meshes/rabbit.obj", dir_.file("bunny.obj"));
-    // A tetrahedron in millimetres.
+    // A tetrahedron in millimeters.
     std::string part = "solid part\n";
     for (const char* const corners :
          {"vertex 0 0 0 vertex 0 90 0 vertex 90 0 0", "vertex 0 0 0 vertex 90 0 0 vertex 0 0 90",
@@ -325,6 +325,13 @@ class Reader {
  private:
   test::TemporaryDirectory dir_;
 };
+
+TEST(Examples, MayHaveFormerNames) {
+  const char* const view[] = {"aspic", "view", "--layout", "film"};
+  EXPECT_EQ(std::get<ViewOptions>(*parse_arguments(4, view)).layout, "video");
+  const char* const bench[] = {"aspic", "bench", "--pictures", "64x48"};
+  EXPECT_EQ(std::get<BenchOptions>(*parse_arguments(4, bench)).images, (ImageSize{64, 48}));
+}
 
 TEST(Examples, AllAreUnderstood) {
   const auto pages = examples_of_pages(), help = examples_of_all_help();

@@ -101,7 +101,7 @@ TEST(MemoryLimit, WantOfMemoryIsASentenceAndLeavesNothing) {
   EXPECT_GT(not_foreseen, 0);
 }
 
-TEST(MemoryLimit, FilmsThatLackMemoryOrStackLeaveNothing) {
+TEST(MemoryLimit, VideosThatLackMemoryOrStackLeaveNothing) {
   std::vector<test::ProcessOptions> limits;
   for (std::uint64_t size = 200; size <= 700; size += 100)
     limits.emplace_back().address_space_limit = size * mebi;

@@ -38,14 +38,14 @@ struct Paper {
   std::vector<Word> words;
 };
 
-/// Share of a picture's height above its last row with ink (PGM, binary).
-double filled(const std::string& picture) {
-  const std::string bytes = content(picture);
+/// Share of an image's height above its last row with ink (PGM, binary).
+double filled(const std::string& image) {
+  const std::string bytes = content(image);
   std::istringstream header(bytes);
   std::string kind;
   std::size_t width = 0, height = 0, most = 0;
   header >> kind >> width >> height >> most;
-  EXPECT_EQ(kind, "P5") << picture;
+  EXPECT_EQ(kind, "P5") << image;
   const std::size_t first = bytes.size() - width * height;
   std::size_t last = 0;
   for (std::size_t i = 0; i < width * height; ++i)
@@ -58,12 +58,12 @@ std::vector<Paper> pages_of(const std::string& pdf) {
   const test::TemporaryDirectory directory;
   const auto drawn = tool(ASPIC_PDFTOPPM, {"-r", "50", "-gray", pdf, directory.file("p")});
   EXPECT_EQ(drawn.exit_code, 0) << "poppler-utils is needed: " << drawn.err;
-  std::vector<std::string> pictures;
+  std::vector<std::string> images;
   for (const auto& file : std::filesystem::directory_iterator(directory.file("")))
-    if (file.path().extension() == ".pgm") pictures.push_back(file.path().string());
-  std::ranges::sort(pictures);  // pdftoppm fills page numbers with zeros
+    if (file.path().extension() == ".pgm") images.push_back(file.path().string());
+  std::ranges::sort(images);  // pdftoppm fills page numbers with zeros
   std::vector<Paper> pages;
-  for (const std::string& picture : pictures) pages.push_back({filled(picture), {}});
+  for (const std::string& image : images) pages.push_back({filled(image), {}});
   const auto read = tool(ASPIC_PDFTOTEXT, {"-bbox", pdf, "-"});
   EXPECT_EQ(read.exit_code, 0) << read.err;
   const std::regex word(
@@ -154,7 +154,7 @@ TEST_F(Report, TheCoursesOutlineTakesAtMostTenPages) {
                             "4.2 Effect of parameters",
                             "id=\"parameter-k\"",
                             "Your words",
-                            "id=\"parameter-mu-pictures\"",
+                            "id=\"parameter-mu-images\"",
                             "Your words",
                             "5 Conclusion",
                             "Your words"}) {

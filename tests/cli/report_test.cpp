@@ -36,7 +36,7 @@ TEST_F(Report, HasAllSectionsAndNoLinkElsewhere) {
   EXPECT_THAT(html,
               HasSubstr("aspic report cube-plane --set 'cube[0].particles-per-edge=4' --only stability"));
   for (const IntegratorRow& row : integrator_table) EXPECT_THAT(html, HasSubstr(row.title));
-  // Every picture of the Markdown page is there.
+  // Every image of the Markdown page is there.
   const std::regex link(R"(\]\(([a-z0-9/.-]+)\))");
   std::size_t links = 0;
   for (auto at = std::sregex_iterator(markdown.begin(), markdown.end(), link); at != std::sregex_iterator();
@@ -173,7 +173,7 @@ TEST_F(Report, IsNotOverwrittenUnasked) {
   EXPECT_THAT(again.err, HasSubstr("--force"));
 }
 
-TEST(ReportWithoutADevice, SaysSoAndHasNoPictures) {
+TEST(ReportWithoutADevice, SaysSoAndHasNoImages) {
   const test::TemporaryDirectory dir;
   const test::ProcessOptions no_device = {{{"ASPIC_EGL_DEVICE", "97"}}, "", {}};
   const auto made = aspic({"report", "cube-plane", "--set", "cube[0].particles-per-edge=3", "--set",
@@ -181,7 +181,7 @@ TEST(ReportWithoutADevice, SaysSoAndHasNoPictures) {
                           no_device);
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("no images"));
-  EXPECT_NE(test::json_member(made.out, "no_pictures"), "null");
+  EXPECT_NE(test::json_member(made.out, "no_images"), "null");
   const std::string html = content(dir.file("r/report.html"));
   EXPECT_THAT(html, HasSubstr("There are no images"));
   EXPECT_THAT(html, HasSubstr("</h1><p class=\"by\">0356611</p>"));
@@ -220,7 +220,7 @@ TEST_F(Report, CommandsOfFiguresMakeTheirNumbers) {
   }
 }
 
-/// The page's picture in a browser whose user wants it dark or light.
+/// The page's image in a browser whose user wants it dark or light.
 struct Screenshot {
   int width = 0, height = 0;
   std::vector<unsigned char> rgb;
@@ -233,34 +233,34 @@ struct Screenshot {
 
 TEST_F(Report, OpensInABrowserInBothThemes) {
   for (const bool dark : {false, true}) {
-    const std::string picture = directory->file(dark ? "dark.png" : "light.png");
+    const std::string image = directory->file(dark ? "dark.png" : "light.png");
     test::ProcessOptions browser;
     browser.program = ASPIC_CHROMIUM;
     const auto shot =
         aspic({"--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--window-size=1200,3000",
                fmt::format("--user-data-dir={}", directory->file("profile")),
                fmt::format("--blink-settings=preferredColorScheme={}", dark ? 0 : 1),
-               fmt::format("--screenshot={}", picture), fmt::format("file://{}", path("report.html"))},
+               fmt::format("--screenshot={}", image), fmt::format("file://{}", path("report.html"))},
               browser);
     ASSERT_EQ(shot.exit_code, 0) << shot.err;
     Screenshot s;
     int channels = 0;
-    unsigned char* pixels = stbi_load(picture.c_str(), &s.width, &s.height, &channels, 3);
+    unsigned char* pixels = stbi_load(image.c_str(), &s.width, &s.height, &channels, 3);
     ASSERT_NE(pixels, nullptr);
     s.rgb.assign(pixels, pixels + 3 * static_cast<std::ptrdiff_t>(s.width) * s.height);
     stbi_image_free(pixels);
     ASSERT_EQ(s.width, 1200);
     EXPECT_EQ(s.brightness(5, 5) > 128, !dark) << s.brightness(5, 5);
-    // Text and charts stand out from the paper, and charts have colours.
-    int contrasting = 0, coloured = 0;
+    // Text and charts stand out from the paper, and charts have colors.
+    int contrasting = 0, colored = 0;
     for (std::size_t i = 0; i + 2 < s.rgb.size(); i += 3) {
       const int low = std::min({s.rgb[i], s.rgb[i + 1], s.rgb[i + 2]}),
                 high = std::max({s.rgb[i], s.rgb[i + 1], s.rgb[i + 2]});
       contrasting += dark ? high > 180 : low < 80;
-      coloured += high - low > 80;
+      colored += high - low > 80;
     }
     EXPECT_GT(contrasting, 20000) << dark;
-    EXPECT_GT(coloured, 5000) << dark;
+    EXPECT_GT(colored, 5000) << dark;
   }
 }
 

@@ -108,7 +108,7 @@ TEST(Run, FirstStepComesAtOnce) {
 #ifdef NDEBUG
   EXPECT_LT(best, 0.3);
 #else
-  EXPECT_LT(best, 3.0);  // without optimisation, perhaps under sanitizers
+  EXPECT_LT(best, 3.0);  // without optimization, perhaps under sanitizers
 #endif
 }
 

@@ -219,7 +219,7 @@ TEST(Sweep, RunsInAFolderAreMadeOnce) {
   EXPECT_EQ(content(dir.file("again.csv")), content(dir.file("s.csv")));
   const auto other =
       aspic({"sweep", "cube-plane", "--backend", "cpu", "--set", "cube[0].particles-per-edge=4", "--set",
-             "view.colour=strain", "--vary", "integrator=midpoint", "--vary", "k=8000.0,9000", "--vary",
+             "view.color=strain", "--vary", "integrator=midpoint", "--vary", "k=8000.0,9000", "--vary",
              "h=1e-3", "--duration", "1", "--runs", folder, "--json"});
   ASSERT_EQ(other.exit_code, 0) << other.err;
   EXPECT_EQ(json_member(other.out, "resumed"), "1");

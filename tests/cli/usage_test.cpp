@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{}, 2, "Examples:"}, Failure{{"rnu", "cube-plane"}, 2, "Did you mean run?"},
         Failure{{"frobnicate"}, 2, "no command \"frobnicate\""},
         Failure{{"view", "--size", "huge"}, 2, "--size must be"},
-        Failure{{"view", "--layout", "cinema"}, 2, "standard, lecture, lab, film"},
+        Failure{{"view", "--layout", "cinema"}, 2, "standard, lecture, lab, video"},
         Failure{{"view", "--backend", "tpu"}, 2, "auto, gpu"},
         Failure{{"verify", "--only", "odrer"}, 2, "did you mean 'order'?"},
         Failure{{"verify", "--only", "rest/midpint"}, 2, "did you mean 'rest/midpoint'?"},
@@ -212,6 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"run", "cube-plane", "--page", "x.mp4"}, 2, "--html: the page's name x.mp4"},
         Failure{{"run", "cube-plane", "--page-live=x.mp4"}, 2, "--html-live: the page's name x.mp4"},
         Failure{{"run", "cube-plane", "--beside", "k"}, 2, "--variant: "},
+        Failure{{"bench", "cube-plane", "--pictures", "k"}, 2, "--images"},
         Failure{{"run", "cube-plane", "--variant", "h=0.002", "--html", "x.csv"}, 2, "must end in .html"},
         Failure{{"run", "cube-plane", "--state", ""}, 2, "--state: the name is empty"},
         Failure{{"run", "cube-plane", "--video", ""}, 2, "--video: the name is empty"},
@@ -224,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"run", "large-cube", "--variant", "h=0.0001", "--html", "x.html"}, 2, "million positions"},
         Failure{{"run", "cube-plane", "--no-text"}, 2, "--no-text applies to images"},
         Failure{{"run", "cube-plane", "--speed=0.5"}, 2, "--speed applies to images"},
-        Failure{{"run", "cube-plane", "--view", "colour=strain"}, 2, "--view applies to images"},
+        Failure{{"run", "cube-plane", "--view", "color=strain"}, 2, "--view applies to images"},
         Failure{{"run", "cube-plane", "--video", "x.mp4", "--frames-format", "jpg"},
                 2,
                 "applies to --frames DIR"},
@@ -270,7 +271,7 @@ TEST(Usage, AnEndingMayBeInCapitals) {
   EXPECT_THAT(dir.read("x.VTP"), testing::StartsWith("<?xml"));
 }
 
-TEST(Usage, PicturesThatCannotBeCountedLeaveNothingBehind) {
+TEST(Usage, ImagesThatCannotBeCountedLeaveNothingBehind) {
   const test::TemporaryDirectory dir;
   for (const Words& more : {Words{}, {"--variant", "h=0.002"}}) {
     Words words = {"run",      "cube-plane",  "--backend", "reference",
@@ -352,7 +353,7 @@ TEST(Usage, WithoutADeviceGpuIsRefusedAndInfoSaysSo) {
   EXPECT_THAT(info.out, HasSubstr("Backend auto: cpu, because no OpenGL 4.3 device was found"));
 }
 
-// On a software rasteriser: that there is one is no reason to install one, and all commands say the same.
+// On a software rasterizer: that there is one is no reason to install one, and all commands say the same.
 TEST(Usage, AutoHasOneReasonEverywhere) {
   const test::ProcessOptions software = {{{"ASPIC_EGL_DEVICE", "software"}}, "", {}};
   const auto info = aspic({"info", "--json"}, software);
@@ -407,7 +408,7 @@ TEST(Usage, InfoIsJsonOnRequest) {
   EXPECT_TRUE(test::is_json(info.out)) << info.out;
 }
 
-TEST(Usage, InfoGivesTheMachinesFreeMemoryForASoftwareRasteriser) {
+TEST(Usage, InfoGivesTheMachinesFreeMemoryForASoftwareRasterizer) {
   test::ProcessOptions software;
   software.environment = {{"ASPIC_EGL_DEVICE", "software"}};
   const auto info = aspic({"info", "--json"}, software);

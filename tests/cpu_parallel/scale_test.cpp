@@ -35,11 +35,11 @@ std::vector<double> heights(double L) {
 }
 
 TEST(Scale, MovesAlikeInEverySize) {
-  const std::vector<double> metre = heights(1.0);
-  EXPECT_GT(metre[0], 0.0);
+  const std::vector<double> meter = heights(1.0);
+  EXPECT_GT(meter[0], 0.0);
   for (const double L : {0.1, 0.01, 0.001}) {
     const std::vector<double> small = heights(L);
-    for (std::size_t n = 0; n < metre.size(); ++n) EXPECT_NEAR(small[n], metre[n], 1e-4) << L << ' ' << n;
+    for (std::size_t n = 0; n < meter.size(); ++n) EXPECT_NEAR(small[n], meter[n], 1e-4) << L << ' ' << n;
     EXPECT_NEAR(small.back(), 0.0, 0.02 / 4.0) << "it hovers";
   }
 }

@@ -164,7 +164,7 @@ TEST(BallFaces, KeepMomentumAndMakeNoEnergy) {
   }
 }
 
-// Up to the speed at which a ball's centre goes by its radius in a step; a heavier ball than the face may
+// Up to the speed at which a ball's center goes by its radius in a step; a heavier ball than the face may
 // push it in before it.
 TEST(BallFaces, LetNothingPass) {
   for (const double speed : {5.0, 20.0, 60.0}) {
@@ -178,7 +178,7 @@ TEST(BallFaces, LetNothingPass) {
         ASSERT_FALSE((*solver->advance(1)).divergence.has_value());
         const State now = *solver->state();
         for (const Vec3& x : now.ball_position) {
-          // The cube's half edge is 0.5: its inscribed sphere holds no centre.
+          // The cube's half edge is 0.5: its inscribed sphere holds no center.
           EXPECT_GT(length(x - cube.position), 0.5) << "at " << speed << " m/s";
         }
       }

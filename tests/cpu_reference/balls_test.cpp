@@ -31,7 +31,7 @@ TEST_P(TwoBalls, FollowTheImpactFormula) {
   settings.contact.ball_restitution = e;
   const Vec3 n = Vec3{2.0, -1.0, 2.0} / 3.0, v1 = {-3.0, 0.5, 1.0}, v2 = {1.0, 0.25, -2.0};
   const double h = settings.simulation.timestep, r1 = 0.5, r2 = 0.3;
-  // After the free flight the first centre stands at (R₁ + R₂ + 0.004)·n from the second.
+  // After the free flight the first center stands at (R₁ + R₂ + 0.004)·n from the second.
   settings.balls.push_back({r1, m1, (r1 + r2 + 0.004) * n - h * v1, v1, {}});
   settings.balls.push_back({r2, m2, -h * v2, v2, {}});
   const State end = after(test::build(settings), 1);
@@ -57,7 +57,7 @@ TEST(Balls, BounceFromAPinnedParticleAsFromAWall) {
   model.mass = {1.0};
   model.inverse_mass = {0.0};
   const State end = after(model, 1);
-  // The centre has moved by h·v when they meet: the normal is that of the meeting.
+  // The center has moved by h·v when they meet: the normal is that of the meeting.
   const Vec3 meeting = {0.503 - 0.004, 0.001, 0.0};
   const Vec3 n = meeting / length(meeting), v = {-4.0, 1.0, 0.0};
   expect_near(end.ball_velocity[0], v - (2.0 * dot(v, n)) * n, 64 * eps * 8.0);
@@ -184,8 +184,8 @@ TEST(Balls, AreFoundWhereverTheyAre) {
   }
 }
 
-// The position phase alone: bodies at rest that overlap are pushed apart and keep their centre of mass.
-TEST(Balls, OverlapIsMendedAboutTheCentreOfMass) {
+// The position phase alone: bodies at rest that overlap are pushed apart and keep their center of mass.
+TEST(Balls, OverlapIsMendedAboutTheCenterOfMass) {
   ModelSettings settings = weightless();
   settings.balls.push_back({0.5, 1.0, {0.0, 0.0, 0.0}, {}, {}});
   settings.balls.push_back({0.5, 3.0, {0.8, 0.0, 0.0}, {}, {}});
@@ -196,20 +196,20 @@ TEST(Balls, OverlapIsMendedAboutTheCentreOfMass) {
 
   const Model many = crowd(1.0, true, 8);
   const State start = initial_state(many, Precision::double_), moved = after(many, 1);
-  Vec3 expected, centre;
+  Vec3 expected, center;
   for (std::size_t p = 0; p < many.mass.size(); ++p) {
     expected = expected + many.mass[p] * (start.position[p] + many.simulation.timestep * start.velocity[p]);
-    centre = centre + many.mass[p] * moved.position[p];
+    center = center + many.mass[p] * moved.position[p];
   }
   for (std::size_t b = 0; b < many.balls.size(); ++b) {
     expected = expected + many.balls[b].mass *
                               (start.ball_position[b] + many.simulation.timestep * start.ball_velocity[b]);
-    centre = centre + many.balls[b].mass * moved.ball_position[b];
+    center = center + many.balls[b].mass * moved.ball_position[b];
   }
-  expect_near(centre, expected, eps * 260.0 * 55.0 * 5.0);
+  expect_near(center, expected, eps * 260.0 * 55.0 * 5.0);
 }
 
-TEST(Balls, CentresThatCoincidePartAlongY) {
+TEST(Balls, CentersThatCoincidePartAlongY) {
   ModelSettings settings = weightless();
   settings.balls.assign(2, {0.5, 1.0, {1.0, 2.0, 3.0}, {}, {}});
   const State end = after(test::build(settings), 1);

@@ -1,6 +1,6 @@
 #pragma once
 // Bodies that touch, for tests of contact between them: cubes and slabs of default springs, some tenths of a
-// metre between neighbours, and what becomes of them.
+// meter between neighbors, and what becomes of them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,15 +19,15 @@ namespace aspic::test {
 inline constexpr double spacing = 4.0 / 9;  ///< s of the default cube [m]
 
 /// A box of so many particles, their spacing s.
-inline CubeSettings box_of(std::array<int, 3> particles, const Vec3& centre, double s = spacing) {
+inline CubeSettings box_of(std::array<int, 3> particles, const Vec3& center, double s = spacing) {
   CubeSettings box;
   box.particles = particles;
   box.edge_length = (std::ranges::max(particles) - 1) * s;
-  box.position = centre;
+  box.position = center;
   return box;
 }
-inline CubeSettings cube_of(int n, const Vec3& centre, double s = spacing) {
-  return box_of({n, n, n}, centre, s);
+inline CubeSettings cube_of(int n, const Vec3& center, double s = spacing) {
+  return box_of({n, n, n}, center, s);
 }
 inline CubeSettings turned(CubeSettings cube, const Vec3& axis, double angle) {
   cube.rotation = {axis, angle};

@@ -293,7 +293,7 @@ TEST(BodyContact, EdgesAndCornersMeet) {
   const double ridge = half * std::numbers::sqrt2, tip = half * std::sqrt(3.0);
   struct Case {
     CubeSettings below, above;
-    double height;  // of the upper centre in contact
+    double height;  // of the upper center in contact
   };
   const CubeSettings plain = cube_of(4, {}), edge = turned(plain, {1, 0, 0}, 45),
                      across = turned(plain, {0, 0, 1}, 45), pointed = turned(plain, {1, 0, -1}, corner);

@@ -12,7 +12,7 @@ using V = Vector<double>;
 Ground<double> round(TerrainShape shape) {
   TerrainSettings settings;
   settings.shape = shape;
-  settings.geometry["centre"] = Vec3{1.0, 2.0, 3.0};
+  settings.geometry["center"] = Vec3{1.0, 2.0, 3.0};
   settings.geometry["radius"] = 2.0;
   return Ground<double>(make_terrain(settings, ContactSettings{}));
 }
@@ -36,11 +36,11 @@ TEST(Gap, DistanceAloneHasTheSameBits) {
     EXPECT_EQ(distance<double>(round(shape), x), gap<double>(round(shape), x).d);
 }
 
-TEST(Gap, AtACentreTheNormalPointsUp) {
+TEST(Gap, AtACenterTheNormalPointsUp) {
   for (const TerrainShape shape : {TerrainShape::sphere, TerrainShape::bowl}) {
-    const auto centre = gap<double>(round(shape), {1, 2, 3});
-    EXPECT_EQ(centre.n, V(0, 1, 0));
-    EXPECT_EQ(centre.d, shape == TerrainShape::bowl ? 2.0 : -2.0);
+    const auto center = gap<double>(round(shape), {1, 2, 3});
+    EXPECT_EQ(center.n, V(0, 1, 0));
+    EXPECT_EQ(center.d, shape == TerrainShape::bowl ? 2.0 : -2.0);
   }
 }
 

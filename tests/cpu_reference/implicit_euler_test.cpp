@@ -83,7 +83,7 @@ TEST(ImplicitEuler, NeedsNoIterationInFreeFlight) {
   EXPECT_EQ(report.end, SolveEnd::converged);
   EXPECT_GT(report.newton_iterations, 0u);
   EXPECT_EQ(held.v(1, 0), 0.0);
-  EXPECT_GT(held.v(1, 1), -9.8 * h) << "its neighbour is held back";
+  EXPECT_GT(held.v(1, 1), -9.8 * h) << "its neighbor is held back";
 }
 
 // A dense Newton's method with finite-difference Jacobian knows nothing of springs, blocks or conjugate

@@ -66,7 +66,7 @@ class Random {
   explicit Random(unsigned seed) : engine_(seed) {}
   double number() { return some_(engine_); }
   V vector() { return {number(), number(), number()}; }
-  /// A terrain through a point a few millimetres below the origin, upwards more often than not.
+  /// A terrain through a point a few millimeters below the origin, upwards more often than not.
   Terrain terrain(double mu) {
     const V n = (vector() + V(0, 1.2, 0)).normalized();
     const V p = -0.004 * std::abs(number()) * n;

@@ -175,7 +175,7 @@ TEST_P(Moving, NoAmplitudeMovesNothing) {
   }
 }
 
-// A ball of radius R lies on the elevator, its centre R above it.
+// A ball of radius R lies on the elevator, its center R above it.
 TEST_P(Moving, AnElevatorCarriesABall) {
   ModelSettings settings;
   settings.simulation.integrator = GetParam();

@@ -228,7 +228,7 @@ TEST(PullOnABall, HangsAtMgOverK) {
     EXPECT_NEAR(state.ball_position[0].y, height, 4.0 * eps * height * (1.0 + c / (k * h)))
         << name_of(integrator);
     EXPECT_EQ(state.ball_position[0].x, 1.0);
-    EXPECT_EQ(state.ball_angular_velocity[0], (Vec3{1.0, 2.0, 3.0})) << "it acts at the centre";
+    EXPECT_EQ(state.ball_angular_velocity[0], (Vec3{1.0, 2.0, 3.0})) << "it acts at the center";
     EXPECT_LT(state.ball_position[1].y, -400.0) << "nobody pulls the other";
   }
 }

@@ -4,7 +4,7 @@
 
 #include "fuzz/targets.h"
 #include "mesh/read_mesh.h"
-#include "mesh/voxelise.h"
+#include "mesh/voxelize.h"
 #include "model/skin.h"
 
 namespace aspic::fuzz {
@@ -22,7 +22,7 @@ void run_mesh(Result<MeshFile> (*parse)(std::string_view, const std::string&), s
   if (read->mesh.triangles.size() > 2000) return;  // as much as is quickly repaired
   const RepairedMesh repaired = repair_mesh(read->mesh);
   for (const Vec3& v : repaired.mesh.vertices) require(is_finite(v), "repaired vertices are finite");
-  const auto made = voxelise(read->mesh, {.cells = 6}, "fuzz.mesh");
+  const auto made = voxelize(read->mesh, {.cells = 6}, "fuzz.mesh");
   if (!made) return require_message(made.error(), {ErrorCode::scene_rejected});
   require(made->grid.full_count() > 0, "a body has cells");
   std::vector<Vec3> in_cells = made->skin.vertices;

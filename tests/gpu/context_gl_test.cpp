@@ -80,7 +80,7 @@ TEST_F(ContextGl, DescribesTheDevice) {
   EXPECT_FALSE(context().lost());
 }
 
-TEST_F(ContextGl, ASoftwareRasteriserIsNotAskedForMemoryOfItsOwn) {
+TEST_F(ContextGl, ASoftwareRasterizerIsNotAskedForMemoryOfItsOwn) {
   if (!context().info().is_software) GTEST_SKIP() << "hardware has its own";
   EXPECT_EQ(context().free_memory(), std::nullopt);
   EXPECT_TRUE(context().check_memory(std::uint64_t{1} << 30).ok());

@@ -79,11 +79,11 @@ TEST_F(FaultGl, AFailedAllocationIsRefusedWithFiguresOnce) {
   EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
 
   own_->inject_fault(Fault::out_of_memory);
-  const auto image = Texture::create(*own_, "picture", {.width = 64, .height = 32});
+  const auto image = Texture::create(*own_, "image", {.width = 64, .height = 32});
   ASSERT_FALSE(image.ok());
   EXPECT_EQ(image.error().code, ErrorCode::scene_rejected);
   EXPECT_THAT(image.error().message(), HasSubstr("64 x 32"));
-  EXPECT_TRUE(Texture::create(*own_, "picture", {.width = 64, .height = 32}).ok());
+  EXPECT_TRUE(Texture::create(*own_, "image", {.width = 64, .height = 32}).ok());
 }
 
 TEST_F(FaultGl, AnAllocationThatFailsBecauseTheDeviceIsLostSaysThat) {

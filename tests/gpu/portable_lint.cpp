@@ -76,8 +76,8 @@ std::string joined(Tokens tokens) {
 class Preprocessor {
  public:
   /// With every branch, a macro with several definitions has the one numbered `definition`, or its last.
-  Preprocessor(Branches branches, std::size_t definition, std::vector<PortabilityOffence>& offences)
-      : branches_(branches), definition_(definition), offences_(offences) {}
+  Preprocessor(Branches branches, std::size_t definition, std::vector<PortabilityOffense>& offenses)
+      : branches_(branches), definition_(definition), offenses_(offenses) {}
 
   std::vector<Token> run(std::string_view text) {
     const std::string lines = logical_lines(text);
@@ -121,7 +121,7 @@ class Preprocessor {
     std::ranges::move(expanded(pending_, {}), std::back_inserter(out_));
     pending_.clear();
   }
-  void offend(const Token& token, const char* rule) { offences_.push_back({token.line, rule, token.text}); }
+  void offend(const Token& token, const char* rule) { offenses_.push_back({token.line, rule, token.text}); }
 
   void direct(Tokens line, std::string_view raw) {
     if (line.empty()) return;
@@ -277,7 +277,7 @@ class Preprocessor {
 
   Branches branches_;
   std::size_t definition_;
-  std::vector<PortabilityOffence>& offences_;
+  std::vector<PortabilityOffense>& offenses_;
   std::map<std::string, std::vector<Macro>> macros_;
   std::vector<Condition> conditions_;
   std::vector<Token> pending_, out_;
@@ -302,8 +302,8 @@ bool is_assignment(std::string_view t) {
 
 class PortableLinter {
  public:
-  PortableLinter(Tokens tokens, Branches branches, std::vector<PortabilityOffence>& offences)
-      : tokens_(tokens), branches_(branches), offences_(offences) {}
+  PortableLinter(Tokens tokens, Branches branches, std::vector<PortabilityOffense>& offenses)
+      : tokens_(tokens), branches_(branches), offenses_(offenses) {}
 
   void run() {
     int depth = 0;
@@ -373,7 +373,7 @@ class PortableLinter {
     bool has_body = false;  // else a prototype
   };
 
-  void offend(const Token& token, const char* rule) { offences_.push_back({token.line, rule, token.text}); }
+  void offend(const Token& token, const char* rule) { offenses_.push_back({token.line, rule, token.text}); }
   static bool contains(Tokens tokens, std::string_view word) {
     return std::ranges::find(tokens, word, &Token::text) != tokens.end();
   }
@@ -538,12 +538,12 @@ class PortableLinter {
         return;  // arithmetic
       }
     }
-    offences_.push_back({argument.front().line, "block-argument", joined(argument)});
+    offenses_.push_back({argument.front().line, "block-argument", joined(argument)});
   }
 
   Tokens tokens_;
   Branches branches_;
-  std::vector<PortabilityOffence>& offences_;
+  std::vector<PortabilityOffense>& offenses_;
   std::map<std::string, Members> types_;
   Members buffers_;  // members of blocks without, and instances of blocks with a name
   std::map<std::string, std::vector<bool>> out_parameters_;  // of our functions
@@ -552,20 +552,20 @@ class PortableLinter {
 
 }  // namespace
 
-std::vector<PortabilityOffence> lint_portability(std::string_view text, Branches branches) {
-  std::vector<PortabilityOffence> offences;
+std::vector<PortabilityOffense> lint_portability(std::string_view text, Branches branches) {
+  std::vector<PortabilityOffense> offenses;
   std::size_t definitions = 1;
   for (std::size_t definition = 0; definition < definitions; ++definition) {
-    Preprocessor preprocessor(branches, definition, offences);
+    Preprocessor preprocessor(branches, definition, offenses);
     const std::vector<Token> tokens = preprocessor.run(text);
     definitions = preprocessor.most_definitions();
-    PortableLinter(tokens, branches, offences).run();
+    PortableLinter(tokens, branches, offenses).run();
   }
-  const auto key = [](const PortabilityOffence& o) { return std::tie(o.line, o.rule, o.text); };
-  std::ranges::sort(offences, {}, key);
+  const auto key = [](const PortabilityOffense& o) { return std::tie(o.line, o.rule, o.text); };
+  std::ranges::sort(offenses, {}, key);
   // std::ranges::unique() returns a subrange that clang 14 rejects.
-  offences.erase(std::unique(offences.begin(), offences.end()), offences.end());
-  return offences;
+  offenses.erase(std::unique(offenses.begin(), offenses.end()), offenses.end());
+  return offenses;
 }
 
 }  // namespace aspic::testing

@@ -6,7 +6,7 @@
 
 namespace aspic::testing {
 
-/// One offence against GLSL 4.30 as the strictest compilers read it. Rules:
+/// One offense against GLSL 4.30 as the strictest compilers read it. Rules:
 /// - block-argument: a member of a buffer block as an argument of a function of ours. Section 4.10 forbids it
 ///   where the parameter lacks the block's memory qualifiers; NVIDIA: C1317. Built-in functions and
 ///   constructors take members. A swizzle is no member.
@@ -21,11 +21,11 @@ namespace aspic::testing {
 /// - undefined-macro: #if with a name that is no macro: an error in 3.3, zero for Mesa; NVIDIA: C0105
 /// - unbalanced: braces that do not match, which blind this lint
 /// - directive: #extension, #pragma or #line, in which drivers differ
-struct PortabilityOffence {
+struct PortabilityOffense {
   int line = 0;  ///< from 1
   std::string rule;
   std::string text;  ///< the name or argument in question
-  friend bool operator==(const PortabilityOffence&, const PortabilityOffence&) = default;
+  friend bool operator==(const PortabilityOffense&, const PortabilityOffense&) = default;
 };
 
 /// Which lines count as the shader's.
@@ -34,8 +34,8 @@ enum class Branches {
   every   ///< those of all branches of each #if: what any set of defines selects
 };
 
-/// The offences of a complete shader, in the order of the lines. With every branch, undefined-macro and
+/// The offenses of a complete shader, in the order of the lines. With every branch, undefined-macro and
 /// undefined-function are left out: they depend on the defines.
-std::vector<PortabilityOffence> lint_portability(std::string_view text, Branches branches);
+std::vector<PortabilityOffense> lint_portability(std::string_view text, Branches branches);
 
 }  // namespace aspic::testing

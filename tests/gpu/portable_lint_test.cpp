@@ -8,10 +8,10 @@
 namespace aspic::testing {
 namespace {
 
-/// The offences as "line rule text".
+/// The offenses as "line rule text".
 std::vector<std::string> found(std::string_view text, Branches branches) {
   std::vector<std::string> all;
-  for (const PortabilityOffence& o : lint_portability(text, branches))
+  for (const PortabilityOffense& o : lint_portability(text, branches))
     all.push_back(fmt::format("{} {} {}", o.line, o.rule, o.text));
   return all;
 }
@@ -27,14 +27,14 @@ constexpr std::string_view declarations =
 
 struct Snippet {
   std::string_view text;
-  std::string_view offences;  ///< joined by "; "
+  std::string_view offenses;  ///< joined by "; "
 };
 
 class PortableLintOf : public ::testing::TestWithParam<Snippet> {};
 
-TEST_P(PortableLintOf, FindsTheOffencesAndNoOthers) {
+TEST_P(PortableLintOf, FindsTheOffensesAndNoOthers) {
   const std::string text = fmt::format("{}{}", declarations, GetParam().text);
-  EXPECT_EQ(fmt::format("{}", fmt::join(found(text, Branches::taken), "; ")), GetParam().offences) << text;
+  EXPECT_EQ(fmt::format("{}", fmt::join(found(text, Branches::taken), "; ")), GetParam().offenses) << text;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -117,9 +117,9 @@ TEST(PortableLint, ShadersAreCleanUnderAllDefines) {
     ++programs;
     const auto shader = library.flatten(file.name);
     ASSERT_TRUE(shader.ok()) << shader.error().message();
-    for (const PortabilityOffence& offence : lint_portability(shader->text(), Branches::every)) {
-      const auto [origin, line] = shader->origin(offence.line);
-      ADD_FAILURE() << origin << ":" << line << ": " << offence.rule << " (" << offence.text << "), in "
+    for (const PortabilityOffense& offense : lint_portability(shader->text(), Branches::every)) {
+      const auto [origin, line] = shader->origin(offense.line);
+      ADD_FAILURE() << origin << ":" << line << ": " << offense.rule << " (" << offense.text << "), in "
                     << file.name;
     }
   }

@@ -51,7 +51,7 @@ class Linter {
  public:
   Linter(std::string_view path, std::string_view text) : path_(path), tokens_(tokens_of(text)) {}
 
-  std::vector<Offence> run() {
+  std::vector<Offense> run() {
     for (at_ = 0; at_ < tokens_.size(); ++at_) {
       check_scope();
       check_declaration();
@@ -62,8 +62,8 @@ class Linter {
         if (text() == "return" && returns_float_) check_expression("inexact-return", at_ + 1);
       }
     }
-    std::ranges::stable_sort(offences_, {}, &Offence::line);
-    return std::move(offences_);
+    std::ranges::stable_sort(offenses_, {}, &Offense::line);
+    return std::move(offenses_);
   }
 
  private:
@@ -82,7 +82,7 @@ class Linter {
   }
   bool in_code() const { return !scopes_.empty() && scopes_.back() == Scope::code; }
   void offend(const char* rule, std::size_t i) {
-    offences_.push_back({tokens_[i].line, rule, tokens_[i].text});
+    offenses_.push_back({tokens_[i].line, rule, tokens_[i].text});
   }
 
   void check_scope() {
@@ -232,7 +232,7 @@ class Linter {
   std::vector<Scope> scopes_;
   std::map<std::string, Variable> variables_;
   bool returns_float_ = false;
-  std::vector<Offence> offences_;
+  std::vector<Offense> offenses_;
 };
 
 }  // namespace
@@ -243,7 +243,7 @@ bool opted_out(std::string_view text) {
   return line.starts_with(mark) && line.find_first_not_of(" \t\r", mark.size()) != std::string_view::npos;
 }
 
-std::vector<Offence> lint(std::string_view path, std::string_view text) {
+std::vector<Offense> lint(std::string_view path, std::string_view text) {
   return Linter(path, text).run();
 }
 

@@ -16,22 +16,22 @@ std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-TEST(PreciseLint, FindsEveryPlantedOffenceAndNothingElse) {
+TEST(PreciseLint, FindsEveryPlantedOffenseAndNothingElse) {
   const std::string text = contents(std::filesystem::path(ASPIC_TEST_SHADERS) / "lint/planted.glsl");
   std::vector<std::string> expected;
   std::istringstream lines(text);
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    const auto mark = line.find("// offence:");
+    const auto mark = line.find("// offense:");
     if (mark == std::string::npos) continue;
     std::istringstream rules(line.substr(mark + 11));
     for (std::string rule; rules >> rule;) expected.push_back(std::to_string(number) + ": " + rule);
   }
   ASSERT_GE(expected.size(), 25u);
   std::vector<std::string> found;
-  for (const Offence& offence : lint("lint/planted.glsl", text))
-    found.push_back(std::to_string(offence.line) + ": " + offence.rule);
+  for (const Offense& offense : lint("lint/planted.glsl", text))
+    found.push_back(std::to_string(offense.line) + ": " + offense.rule);
   EXPECT_EQ(found, expected);
 }
 
@@ -60,8 +60,8 @@ TEST(PreciseLint, ComputeShadersAreClean) {
       const std::string text = contents(entry.path());
       if (opted_out(text)) continue;
       const std::string path = entry.path().lexically_relative(root).generic_string();
-      for (const Offence& offence : lint(path, text))
-        ADD_FAILURE() << path << ":" << offence.line << ": " << offence.rule << " (" << offence.text << ")";
+      for (const Offense& offense : lint(path, text))
+        ADD_FAILURE() << path << ":" << offense.line << ": " << offense.rule << " (" << offense.text << ")";
     }
   }
   EXPECT_GE(files, 4);

@@ -83,7 +83,7 @@ TEST_F(BallsOnTheDevice, ACubeBetweenTerrains) {
   settings.contact.ball_restitution = 0.4;
   TerrainSettings sphere;
   sphere.shape = TerrainShape::sphere;
-  sphere.geometry["centre"] = Vec3{3.0, -1.0, 0.0};
+  sphere.geometry["center"] = Vec3{3.0, -1.0, 0.0};
   sphere.geometry["radius"] = 1.5;
   settings.terrain.push_back(sphere);
   settings.balls.push_back({1.0, 40.0, {0.3, 5.0, 0.1}, {0.0, -4.0, 0.0}, {1.0, 9.0, -4.0}});

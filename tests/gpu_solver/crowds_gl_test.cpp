@@ -34,7 +34,7 @@ class Crowds : public aspic::testing::GlTest {
     }
   }
 
-  /// Balls of three sizes and loose particles whose centres lie in a cube of this size, in motion.
+  /// Balls of three sizes and loose particles whose centers lie in a cube of this size, in motion.
   static Model crowd(int balls, int particles, double size = 1e-3,
                      Integrator integrator = Integrator::symplectic_euler) {
     std::mt19937_64 random(static_cast<std::uint64_t>(1000 * balls + particles));

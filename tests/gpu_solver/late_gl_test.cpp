@@ -1,4 +1,4 @@
-// Hearing of the device late, or never: queues that are looked at a picture later, and a device that stops
+// Hearing of the device late, or never: queues that are looked at an image later, and a device that stops
 // answering.
 #include <gmock/gmock.h>
 

@@ -91,7 +91,7 @@ class LoopBounds : public aspic::testing::GlTest {
   }
 };
 
-// What the bound rests on: this driver carries out three loops of as many rounds, of neighbours in step or
+// What the bound rests on: this driver carries out three loops of as many rounds, of neighbors in step or
 // not.
 TEST_F(LoopBounds, AreWhatTheDriverDoes) {
   const test::TemporaryDirectory directory;
@@ -187,7 +187,7 @@ TEST_F(LoopBounds, OfTerrains) {
       while (settings.terrain.size() < 64) {
         TerrainSettings sphere;
         sphere.shape = TerrainShape::sphere;
-        sphere.geometry["centre"] = Vec3{0.1 * static_cast<double>(settings.terrain.size()), -2.0, 0.0};
+        sphere.geometry["center"] = Vec3{0.1 * static_cast<double>(settings.terrain.size()), -2.0, 0.0};
         sphere.geometry["radius"] = 1.0 + 0.01 * static_cast<double>(settings.terrain.size() % 5);
         settings.terrain.push_back(sphere);
       }
@@ -218,8 +218,8 @@ TEST_F(LoopBounds, OfReductions) {
   EXPECT_EQ(*solver->state(), *reference->state());
 }
 
-// Pictures: their kernels go over lists that the host has made, which looks at them first.
-TEST_F(LoopBounds, OfPictures) {
+// Images: their kernels go over lists that the host has made, which looks at them first.
+TEST_F(LoopBounds, OfImages) {
   EXPECT_TRUE(gl::check_loop("k", "n", gl::max_rounds).ok());
   const Status over = gl::check_loop("normals", "the faces at one particle", gl::max_rounds + 1);
   ASSERT_FALSE(over.ok());
@@ -241,7 +241,7 @@ gl::Buffer frame_of(gl::Context& context, std::uint32_t particles, std::uint32_t
   frame.lights[LIGHT_SKY] = glm::mat4(0.0f);  // the world's y, z, x are the light's x, y, z
   frame.lights[LIGHT_SKY][1][0] = frame.lights[LIGHT_SKY][2][1] = frame.lights[LIGHT_SKY][0][2] = 1.0f;
   frame.particle_count = particles;
-  frame.colour_mode = mode;
+  frame.color_mode = mode;
   return std::move(gl::Buffer::of(context, "frame", std::span(&frame, 1), gl::BufferKind::uniform)).value();
 }
 
@@ -257,7 +257,7 @@ TEST_F(LoopBounds, OfTheBoxOfAllParticles) {
     items[particles - group + c][c] = highest[c];
   }
   const auto state = std::move(gl::Buffer::of(context(), "particles", items)).value();
-  const gl::Buffer frame = frame_of(context(), particles, COLOUR_MATERIAL);
+  const gl::Buffer frame = frame_of(context(), particles, COLOR_MATERIAL);
   std::array<render_layout::Bounds, LIGHTS> found;
   found.fill({glm::uvec4(0xffffffffu), glm::uvec4(0u)});
   const auto bounds = std::move(gl::Buffer::of(context(), "bounds", found)).value();
@@ -301,7 +301,7 @@ TEST_F(LoopBounds, OfTheForceThatIsDrawn) {
   auto buffers = std::move(ModelBuffers::create(context(), model)).value();
   ASSERT_TRUE(buffers.prepare_incident(context(), model, shown).ok());
   const RenderPrograms programs = RenderPrograms::create(context(), gl::ShaderLibrary());
-  const gl::Buffer frame = frame_of(context(), model.particle_count(), COLOUR_FORCE);
+  const gl::Buffer frame = frame_of(context(), model.particle_count(), COLOR_FORCE);
   frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
   buffers.compute_quantity(programs, shown);
   const auto force = static_cast<double>(buffers.quantity().download_items<float>(1).front());

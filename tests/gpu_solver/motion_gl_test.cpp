@@ -87,7 +87,7 @@ TEST_F(MovingTerrain, ManyTerrainsMayMove) {
       const auto n = static_cast<double>(settings.terrain.size());
       settings.terrain.push_back(
           {.shape = TerrainShape::sphere,
-           .geometry = {{"centre", Vec3{0.1 * n - 3.0, -3.0, 0.2 * n}}, {"radius", 1.8}},
+           .geometry = {{"center", Vec3{0.1 * n - 3.0, -3.0, 0.2 * n}}, {"radius", 1.8}},
            .motion = TerrainMotion{{0.0, 1.0, 0.1 * n}, 0.1, 0.1 * n, 0.01 * n}});
     }
     const Model model = test::build(settings);

@@ -172,7 +172,7 @@ TEST_F(PullOnTheDevice, DivergesWhereTheReferenceDoes) {
     ASSERT_TRUE(expected && found) << name_of(integrator);
     EXPECT_EQ(found->step, expected->step);
     EXPECT_EQ(found->particle, expected->particle);
-    // Methods that see the whole step drag its neighbours along within it.
+    // Methods that see the whole step drag its neighbors along within it.
     if (integrator == Integrator::explicit_euler) {
       EXPECT_EQ(found->particle, 42u);
     }

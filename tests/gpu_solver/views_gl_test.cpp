@@ -103,7 +103,7 @@ TEST_F(Views, ReadLargeStatesWithoutACopyInBetween) {
   EXPECT_EQ(read, start);
 }
 
-TEST_F(Views, ReadAsPicturesHaveThem) {
+TEST_F(Views, ReadAsImagesHaveThem) {
   for (const auto& solver : solvers_) {
     SCOPED_TRACE(solver->description());
     ASSERT_TRUE(solver->advance(40).ok());

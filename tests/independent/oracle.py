@@ -17,7 +17,7 @@ from oracle_balls import Balls
 from oracle_cells import MATERIAL, Actuation, build_voxels, cells_of_cube
 from oracle_contact import CoulombStep, dot
 from oracle_implicit import backward_euler
-from oracle_scene import BALL, TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene, surface_facts
+from oracle_scene import BALL, TERRAIN, Readings, SceneError, build_cube, filled, normalized, read_scene, surface_facts
 from oracle_body_contact import Surface, BodyContact
 
 COLUMNS = ["kind", "index", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"]
@@ -42,14 +42,14 @@ class Terrain:
         self.restitution, self.friction = float(table["restitution"]), float(table["friction"])
         if "normal" in table:
             self.point = np.array(table["point"], dtype=float)
-            self.normal = normalised(table["normal"], f"{where}.normal")
+            self.normal = normalized(table["normal"], f"{where}.normal")
         else:
-            self.centre, self.radius = np.array(table["centre"], dtype=float), float(table["radius"])
+            self.center, self.radius = np.array(table["center"], dtype=float), float(table["radius"])
 
     def distance_and_normal(self, x):
         if self.shape in ("plane", "tilted-plane"):
             return (x - self.point) @ self.normal, np.broadcast_to(self.normal, x.shape)
-        offset = x - self.centre
+        offset = x - self.center
         length = np.linalg.norm(offset, axis=1)
         central = length == 0
         outward = offset / np.where(central, 1.0, length)[:, None]

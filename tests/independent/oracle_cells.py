@@ -33,7 +33,7 @@ class Cells:
 
     names: tuple  # of the body
     shape: tuple
-    middles: np.ndarray  # from the body's centre, before it is turned
+    middles: np.ndarray  # from the body's center, before it is turned
     materials: list  # names, by cell; None where it is empty
     kinds: np.ndarray  # by spring
     squares: np.ndarray  # of the rest vector's direction, (springs, 3)

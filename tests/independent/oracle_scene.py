@@ -21,8 +21,8 @@ CONTACT = {
 TERRAIN = {
     "plane": {"point": [0.0, -1.0, 0.0], "normal": [0.0, 1.0, 0.0]},
     "tilted-plane": {"point": [0.0, 0.0, 0.0], "normal": [1.0, 1.0, 0.0]},
-    "sphere": {"centre": [0.0, -1.0, 0.0], "radius": 3.0},
-    "bowl": {"centre": [2.0, 7.0, 1.0], "radius": 7.0},
+    "sphere": {"center": [0.0, -1.0, 0.0], "radius": 3.0},
+    "bowl": {"center": [2.0, 7.0, 1.0], "radius": 7.0},
 }
 CUBE = {
     "particles-per-edge": 10, "particles": None, "edge-length": 4.0, "position": [0.0, 9.0, 0.0],
@@ -53,7 +53,7 @@ class Readings:
     front: str = "+z"  # the cube's face called "front"; or "-z"
 
 
-def normalised(vector, where):
+def normalized(vector, where):
     vector = np.asarray(vector, dtype=float)
     length = np.linalg.norm(vector)
     if not length > 0:
@@ -93,7 +93,7 @@ def read_scene(path):
 
 
 def spring_offsets():
-    """Half of the neighbour offsets by type: each unordered pair of particles is met once."""
+    """Half of the neighbor offsets by type: each unordered pair of particles is met once."""
     half = [o for o in itertools.product((-1, 0, 1), repeat=3) if o > (0, 0, 0)]
     axis = [o for o in half if np.abs(o).sum() == 1]
     diagonal = [o for o in half if np.abs(o).sum() > 1]
@@ -127,7 +127,7 @@ def rotation_matrix(axis, degrees, where):
     """Rodrigues' formula, right-handed."""
     if degrees == 0:
         return np.eye(3)
-    a = normalised(axis, where)
+    a = normalized(axis, where)
     cross = np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
     angle = np.radians(degrees)
     return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * (cross @ cross)

@@ -4,7 +4,7 @@
 usage: standing.py STATE.csv PARTICLES_PER_EDGE EDGE_LENGTH
 
 Reads nothing but the file that `aspic run --state` writes. Exit code 1 unless the cube, not rotated at its start,
-stands above 0.9 of its edge with no link between axis neighbours inverted and no cell turned inside out.
+stands above 0.9 of its edge with no link between axis neighbors inverted and no cell turned inside out.
 """
 import csv
 import sys

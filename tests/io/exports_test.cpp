@@ -227,7 +227,7 @@ TEST_F(Exports, ACacheHasTheVerticesOfItsObject) {
       named(face);
   }
   EXPECT_EQ(next, count) << "every vertex is one of a face or an edge";
-  // Seen from outside the corners of a ball's faces are anticlockwise.
+  // Seen from outside the corners of a ball's faces are counterclockwise.
   for (const auto& face : object.faces.at("ball-0")) {
     const Vec3 a = object.vertices[face[0]], b = object.vertices[face[1]], c = object.vertices[face[2]];
     EXPECT_GT(dot(cross(b - a, c - a), a - at(5).ball_position[0]), 0.0);

@@ -18,7 +18,7 @@ TEST(FrameSchedule, ShowsTheNearestStep) {
 }
 
 TEST(FrameSchedule, EndsWithTheLastState) {
-  // 0.1 s at 60 a second: 6 intervals; 0.11 s: 6.6, so one more picture for the end.
+  // 0.1 s at 60 a second: 6 intervals; 0.11 s: 6.6, so one more image for the end.
   EXPECT_EQ(FrameSchedule(0.001, 0, 100, 60.0, 1.0).count(), 7u);
   const FrameSchedule odd(0.001, 0, 110, 60.0, 1.0);
   ASSERT_EQ(odd.count(), 8u);
@@ -39,7 +39,7 @@ TEST(FrameSchedule, SlowMotionShowsAStepSeveralTimes) {
   }
 }
 
-TEST(FrameSchedule, NoStepsGiveOnePicture) {
+TEST(FrameSchedule, NoStepsGiveOneImage) {
   const FrameSchedule schedule(0.001, 7, 7, 60.0, 1.0);
   ASSERT_EQ(schedule.count(), 1u);
   EXPECT_EQ(schedule.step_of(0), 7u);
@@ -49,7 +49,7 @@ TEST(FrameSchedule, AnOpenEndShowsTheSameSteps) {
   const FrameSchedule closed(0.001, 3, 100003, 60.0, 1.5);
   const FrameSchedule open = FrameSchedule::open_ended(0.001, 3, 60.0, 1.5);
   for (std::uint64_t f = 0; f + 1 < closed.count(); ++f) ASSERT_EQ(open.step_of(f), closed.step_of(f)) << f;
-  // An hour on, picture and step still belong together: nothing adds up.
+  // An hour on, image and step still belong together: nothing adds up.
   EXPECT_EQ(open.step_of(std::uint64_t{60} * 3600), 3u + 5'400'000u);
   EXPECT_GT(open.step_of(std::uint64_t{1} << 51), open.step_of(std::uint64_t{1} << 50));
 }

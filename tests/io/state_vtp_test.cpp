@@ -166,7 +166,7 @@ TEST(StateVtp, HasSpringsAsLinesSurfacesAsQuadsAndBallsAsVertices) {
     EXPECT_EQ(lines[2 * s + 1], springs[s].b);
     EXPECT_EQ(ends[s], static_cast<std::int64_t>(2 * s + 2));
     EXPECT_EQ(types[2 + s], static_cast<int>(model.spring_classes[springs[s].spring_class].type));
-    // Lengths of a tenth of a metre at positions of up to 10 m, rounded in double precision.
+    // Lengths of a tenth of a meter at positions of up to 10 m, rounded in double precision.
     EXPECT_NEAR(strain[2 + s], 0.25, 8 * 2.3e-16 * 10.0 / 0.1);
     EXPECT_EQ(bodies[2 + s], springs[s].a < model.bodies[1].first_particle ? 0 : 1);
   }

@@ -26,7 +26,7 @@ TEST(Occupancy, CellsAreInTheOrderOfTheLattice) {
   }
   EXPECT_EQ(grid.full_count(), 2u);
   EXPECT_DOUBLE_EQ(grid.volume(), 0.25);
-  EXPECT_EQ(grid.centre(1, 0, 2), (Vec3{0.75, 0.25, 1.25}));
+  EXPECT_EQ(grid.center(1, 0, 2), (Vec3{0.75, 0.25, 1.25}));
   const Lattice lattice = lattice_of(grid);
   EXPECT_THAT(lattice.particles, ElementsAre(3, 4, 5));
   EXPECT_TRUE(lattice.full({1, 2, 3}) && lattice.full({0, 1, 0}) && !lattice.full({0, 0, 0}));

@@ -93,7 +93,7 @@ TEST(RepairMesh, LeavesOutFacesWithoutAreaButKeepsWhatTheyConnect) {
   EXPECT_NEAR(enclosed_volume(made.mesh), 8.0, 1e-12);
 }
 
-TEST(RepairMesh, TurnsFacesToAgreeWithTheirNeighbours) {
+TEST(RepairMesh, TurnsFacesToAgreeWithTheirNeighbors) {
   for (const double share : {0.1, 0.4, 0.9}) {
     const TriangleMesh turned = test::with_turned(sphere(), share, 3);
     const RepairedMesh made = repair_mesh(turned);

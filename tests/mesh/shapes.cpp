@@ -22,10 +22,10 @@ void add_quad(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_
 
 }  // namespace
 
-TriangleMesh box_mesh(const Vec3& half, const Vec3& centre) {
+TriangleMesh box_mesh(const Vec3& half, const Vec3& center) {
   TriangleMesh mesh;
   for (int n = 0; n < 8; ++n)
-    mesh.vertices.push_back(centre + Vec3{(n & 4) != 0 ? half.x : -half.x, (n & 2) != 0 ? half.y : -half.y,
+    mesh.vertices.push_back(center + Vec3{(n & 4) != 0 ? half.x : -half.x, (n & 2) != 0 ? half.y : -half.y,
                                           (n & 1) != 0 ? half.z : -half.z});
   add_quad(mesh, 0, 1, 3, 2);
   add_quad(mesh, 4, 6, 7, 5);
@@ -36,7 +36,7 @@ TriangleMesh box_mesh(const Vec3& half, const Vec3& centre) {
   return mesh;
 }
 
-TriangleMesh sphere_mesh(int levels, double radius, const Vec3& centre) {
+TriangleMesh sphere_mesh(int levels, double radius, const Vec3& center) {
   const double g = std::numbers::phi;
   TriangleMesh mesh;
   mesh.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
@@ -63,7 +63,7 @@ TriangleMesh sphere_mesh(int levels, double radius, const Vec3& centre) {
     }
     mesh.triangles = finer;
   }
-  for (Vec3& v : mesh.vertices) v = centre + (radius / length(v)) * v;
+  for (Vec3& v : mesh.vertices) v = center + (radius / length(v)) * v;
   return mesh;
 }
 

@@ -7,14 +7,14 @@
 
 #include "base/split_mix.h"
 #include "mesh/shapes.h"
-#include "mesh/voxelise.h"
+#include "mesh/voxelize.h"
 #include "model/skin_text.h"
 
 namespace aspic {
 namespace {
 
-const VoxelisedMesh& torus() {
-  static const VoxelisedMesh made = *voxelise(test::torus_mesh(60, 30, 1.0, 0.4), {.cells = 16}, "torus");
+const VoxelizedMesh& torus() {
+  static const VoxelizedMesh made = *voxelize(test::torus_mesh(60, 30, 1.0, 0.4), {.cells = 16}, "torus");
   return made;
 }
 
@@ -40,7 +40,7 @@ std::vector<Vec3> in_cells(const OccupancyGrid& grid, std::span<const Vec3> vert
 struct Bound {
   SkinBinding binding;
   std::vector<std::array<std::uint32_t, 8>> corners;
-  explicit Bound(const VoxelisedMesh& made) {
+  explicit Bound(const VoxelizedMesh& made) {
     const Lattice lattice = lattice_of(made.grid);
     binding = bind_skin(lattice, in_cells(made.grid, made.skin.vertices));
     corners = skin_corners(binding, lattice, particle_numbers(lattice));

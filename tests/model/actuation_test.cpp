@@ -205,7 +205,7 @@ TEST(Actuation, SelectsByMaterialBoxMaskAndType) {
   by_material.select.materials = {"fat"};
   by_box.select.box = BoxSettings{{0.2, -9.0, -9.0}, {9.0, 9.0, 9.0}};
   by_mask.select.voxels = {{"...1", "...1"}, {"...1", "...1"}};
-  EXPECT_EQ(acted(by_box), acted(by_mask)) << "middles of cells from the body's centre";
+  EXPECT_EQ(acted(by_box), acted(by_mask)) << "middles of cells from the body's center";
   EXPECT_LT(acted(by_box), acted(by_material));
   by_type.select.springs = {"bending"};
   EXPECT_EQ(acted(by_type), count(test::build(settings)).bending);

@@ -22,12 +22,12 @@ namespace {
 
 constexpr std::size_t any_bodies = 64;
 
-/// By particle: neighbours in the order in which a kernel meets them, with the class of each spring.
-using Neighbours = std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
+/// By particle: neighbors in the order in which a kernel meets them, with the class of each spring.
+using Neighbors = std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
 
 /// What shaders/compute/cells.comp makes of the blocks.
-Neighbours neighbours_of(const Model& model, const CellBlocks& cells) {
-  Neighbours found;
+Neighbors neighbors_of(const Model& model, const CellBlocks& cells) {
+  Neighbors found;
   const auto particle_at = [](std::uint32_t word, int place) {
     const std::uint32_t before = word & 15u & ((1u << std::max(place, 0)) - 1u);
     return static_cast<std::int64_t>(word >> 4) + std::popcount(before) + std::min(place, 0) +
@@ -78,8 +78,8 @@ Neighbours neighbours_of(const Model& model, const CellBlocks& cells) {
 }
 
 /// The same from the list of springs, of these bodies.
-Neighbours listed_neighbours(const Model& model, const CellBlocks& cells) {
-  Neighbours found;
+Neighbors listed_neighbors(const Model& model, const CellBlocks& cells) {
+  Neighbors found;
   for (const CellBody& taken : cells.bodies) {
     const Body& body = model.bodies[taken.body];
     for (const Spring& spring : springs_of(model, body.first_particle, body.particle_count)) {
@@ -93,8 +93,8 @@ Neighbours listed_neighbours(const Model& model, const CellBlocks& cells) {
 void expect_all_springs(const Model& model, std::size_t bodies) {
   const CellBlocks cells = cell_blocks(model, any_bodies);
   ASSERT_EQ(cells.bodies.size(), bodies);
-  const Neighbours found = neighbours_of(model, cells);
-  EXPECT_EQ(found, listed_neighbours(model, cells));
+  const Neighbors found = neighbors_of(model, cells);
+  EXPECT_EQ(found, listed_neighbors(model, cells));
   EXPECT_EQ(found.size(), cells.particles);
 }
 
@@ -159,7 +159,7 @@ TEST(CellBlocks, TakeLessThanEightBytesAParticle) {
   EXPECT_EQ(cells.particles, model.particle_count());
   EXPECT_EQ(cells.class_width, 8u);
   EXPECT_LT(sizeof(std::uint32_t) * cells.words(), 8u * model.particle_count());
-  EXPECT_GT(incident_counts(model, IncidentWords::neighbours).bytes(), 100u * model.particle_count());
+  EXPECT_GT(incident_counts(model, IncidentWords::neighbors).bytes(), 100u * model.particle_count());
 }
 
 // Two cells at the ends of a long diagonal: nearly all of the map would be empty.

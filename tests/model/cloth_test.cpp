@@ -30,7 +30,7 @@ std::vector<std::uint32_t> pinned_in(const Model& model) {
 class ClothLattice : public testing::TestWithParam<std::array<int, 2>> {};
 
 // Every pair of lattice points is looked at: the differences say which spring joins them, if any.
-TEST_P(ClothLattice, JoinsNeighboursDiagonalsAndSecondNeighbours) {
+TEST_P(ClothLattice, JoinsNeighborsDiagonalsAndSecondNeighbors) {
   ClothSettings cloth;
   cloth.particles = GetParam();
   cloth.size = {1.5, 0.7};
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, ClothLattice,
                            return std::to_string(size.param[0]) + "x" + std::to_string(size.param[1]);
                          });
 
-TEST(Cloth, LiesInItsPlaneAroundItsCentreAndTurnsWithIt) {
+TEST(Cloth, LiesInItsPlaneAroundItsCenterAndTurnsWithIt) {
   ClothSettings cloth;
   cloth.particles = {3, 5};
   cloth.size = {2.0, 4.0};

@@ -35,7 +35,7 @@ TEST(Cube, TenPerEdgeHasThePublishedCounts) {
 class CubeLattice : public testing::TestWithParam<int> {};
 
 // The set of springs is derived here from distances alone, by comparing all pairs of particles: an
-// independent statement of "axis neighbours, face and body diagonals, two steps along an axis".
+// independent statement of "axis neighbors, face and body diagonals, two steps along an axis".
 TEST_P(CubeLattice, SpringsAreThosePairsAtTheirDistances) {
   const int n = GetParam();
   const double edge = 3.0, s = edge / (n - 1);
@@ -91,7 +91,7 @@ TEST(Cube, LocalIndexRunsZFastest) {
   EXPECT_EQ(model.initial_position[9], (Vec3{0.0, 8.0, -1.0}));
 }
 
-TEST(Cube, RotationKeepsCentreAndLengths) {
+TEST(Cube, RotationKeepsCenterAndLengths) {
   ModelSettings settings;
   CubeSettings cube;
   cube.particles_per_edge = 4;
@@ -101,8 +101,8 @@ TEST(Cube, RotationKeepsCentreAndLengths) {
   ASSERT_TRUE(model.ok());
   Vec3 sum;
   for (const Vec3& x : model->initial_position) sum = sum + x;
-  const Vec3 centre = sum / 64.0;
-  EXPECT_NEAR(length(centre - cube.position), 0.0, 1e-13);
+  const Vec3 center = sum / 64.0;
+  EXPECT_NEAR(length(center - cube.position), 0.0, 1e-13);
   for (const Spring& spring : springs_of(*model)) {
     const Vec3 d = model->initial_position[spring.b] - model->initial_position[spring.a];
     EXPECT_NEAR(length(d), model->spring_classes[spring.spring_class].rest_length, 1e-13);

@@ -110,7 +110,7 @@ TEST_P(NetLattice, IsWhatTheFacesSay) {
   EXPECT_EQ(predicted.bending, counted.bending);
 }
 
-// Two points along an axis make faces neighbours, three let bending springs reach across: both must not join
+// Two points along an axis make faces neighbors, three let bending springs reach across: both must not join
 // points of different faces.
 INSTANTIATE_TEST_SUITE_P(Sizes, NetLattice,
                          testing::Values(NetPoint{10, 20, 35}, NetPoint{2, 2, 2}, NetPoint{3, 3, 3},

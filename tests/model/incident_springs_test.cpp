@@ -35,30 +35,29 @@ std::vector<std::uint32_t> words_at(const IncidentSprings& springs, std::uint32_
   return words;
 }
 
-TEST(IncidentSpringsOfAModel, ListEverySpringOnceAtEachEndInAscendingNeighbourOrder) {
+TEST(IncidentSpringsOfAModel, ListEverySpringOnceAtEachEndInAscendingNeighborOrder) {
   const Model model = two_cubes();
   const std::vector<Spring> springs = all_springs(model);
-  const IncidentSprings by_neighbour = *incident_springs(model, IncidentWords::neighbours),
+  const IncidentSprings by_neighbor = *incident_springs(model, IncidentWords::neighbors),
                         by_spring = *incident_springs(model, IncidentWords::springs);
-  ASSERT_EQ(by_neighbour.start, by_spring.start);
+  ASSERT_EQ(by_neighbor.start, by_spring.start);
   const std::uint32_t bits = class_bits(model);
   EXPECT_EQ(bits, 3u);  // eight classes
   std::vector<int> seen(springs.size(), 0);
   std::size_t most = 0;
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
-    const auto neighbours = words_at(by_neighbour, i), ends = words_at(by_spring, i);
-    ASSERT_EQ(neighbours.size(), ends.size());
+    const auto neighbors = words_at(by_neighbor, i), ends = words_at(by_spring, i);
+    ASSERT_EQ(neighbors.size(), ends.size());
     most = std::max(most, ends.size());
     std::int64_t last = -1;
     for (std::size_t n = 0; n < ends.size(); ++n) {
-      const std::uint32_t neighbour = neighbours[n] >> bits,
-                          spring_class = neighbours[n] & ((1u << bits) - 1u);
-      EXPECT_GT(neighbour, last);
-      last = neighbour;
+      const std::uint32_t neighbor = neighbors[n] >> bits, spring_class = neighbors[n] & ((1u << bits) - 1u);
+      EXPECT_GT(neighbor, last);
+      last = neighbor;
       const Spring& spring = springs[ends[n] >> 1];
       const bool is_b = (ends[n] & 1u) != 0;
       EXPECT_EQ(is_b ? spring.b : spring.a, i);
-      EXPECT_EQ(is_b ? spring.a : spring.b, neighbour);
+      EXPECT_EQ(is_b ? spring.a : spring.b, neighbor);
       EXPECT_EQ(spring.spring_class, spring_class);
       ++seen[ends[n] >> 1];
     }
@@ -76,7 +75,7 @@ TEST(IncidentSpringsOfAModel, BesideLatticesAreThoseOfAllOtherBodies) {
   settings.goal_nets.emplace_back();
   Model model = test::build(settings);
   const IncidentSprings beside = *incident_springs(model, IncidentWords::beside_lattices),
-                        all = *incident_springs(model, IncidentWords::neighbours);
+                        all = *incident_springs(model, IncidentWords::neighbors);
   EXPECT_EQ(lattice_particles(model), 128u);
   std::uint32_t place = 0;
   for (const Body& body : model.bodies) {
@@ -86,7 +85,7 @@ TEST(IncidentSpringsOfAModel, BesideLatticesAreThoseOfAllOtherBodies) {
   }
   EXPECT_EQ(place, model.particle_count() - 128u);
   for (const IncidentWords words :
-       {IncidentWords::beside_lattices, IncidentWords::neighbours, IncidentWords::springs}) {
+       {IncidentWords::beside_lattices, IncidentWords::neighbors, IncidentWords::springs}) {
     const IncidentSprings made = *incident_springs(model, words);
     EXPECT_EQ(incident_counts(model, words).starts, made.start.size());
     EXPECT_EQ(incident_counts(model, words).words, made.words.size());
@@ -109,7 +108,7 @@ TEST(IncidentSpringsOfAModel, BesideCellsAreThoseOfTheBodiesThatRemain) {
       std::ranges::find_if(model.bodies, [](const Body& body) { return body.lattice && !body.box(); });
   left_out[static_cast<std::size_t>(first - model.bodies.begin())] = true;
   const IncidentSprings beside = *incident_springs(model, IncidentWords::beside_cells, left_out),
-                        all = *incident_springs(model, IncidentWords::neighbours);
+                        all = *incident_springs(model, IncidentWords::neighbors);
   std::uint32_t place = 0;
   for (const Body& body : model.bodies) {
     if (body.box() || &body == &*first) continue;

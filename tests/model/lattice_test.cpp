@@ -28,7 +28,7 @@ std::size_t particles_in(const Lattice& lattice) {
   return numbers.size() - static_cast<std::size_t>(std::ranges::count(numbers, no_particle));
 }
 
-TEST(Lattice, DirectionsAreTheNeighboursInCellsAndTwoStepsAlongAxes) {
+TEST(Lattice, DirectionsAreTheNeighborsInCellsAndTwoStepsAlongAxes) {
   std::array<int, 4> of_class = {};
   std::size_t n = 0;
   for (const LatticeDirection& o : lattice_directions()) {
@@ -36,7 +36,7 @@ TEST(Lattice, DirectionsAreTheNeighboursInCellsAndTwoStepsAlongAxes) {
     const LatticeDirection& opposite = lattice_directions()[lattice_directions().size() - 1 - n++];
     EXPECT_EQ(opposite, (LatticeDirection{-o.di, -o.dj, -o.dk, o.spring_class}));
   }
-  // Neighbours along 3 axes, across 6 diagonals of faces, 4 through a cell, and 3 axes again: both ways.
+  // Neighbors along 3 axes, across 6 diagonals of faces, 4 through a cell, and 3 axes again: both ways.
   EXPECT_THAT(of_class, ElementsAre(6, 12, 8, 6));
   for (const LatticeDirection& o : upper_directions())
     EXPECT_GT(std::tie(o.di, o.dj, o.dk), std::make_tuple(0, 0, 0));
@@ -196,7 +196,7 @@ TEST(Box, SpringsAreThosePairsAtTheirDistances) {
   }
 }
 
-TEST(Box, IsCentredWithItsLongestEdgeAsGiven) {
+TEST(Box, IsCenteredWithItsLongestEdgeAsGiven) {
   ModelSettings settings = test::cube_on_plane(2, 5.0);
   settings.cubes[0].particles = {3, 9, 5};
   settings.cubes[0].edge_length = 2.0;

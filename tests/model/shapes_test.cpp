@@ -16,7 +16,7 @@ TEST(Torus, DistanceIsThatToTheNearestPointOfTheRing) {
   const TerrainSettings settings = {
       .shape = TerrainShape::torus,
       .geometry = {
-          {"centre", Vec3{1, 2, 3}}, {"axis", Vec3{1, 2, -2}}, {"major-radius", 2.0}, {"minor-radius", 0.5}}};
+          {"center", Vec3{1, 2, 3}}, {"axis", Vec3{1, 2, -2}}, {"major-radius", 2.0}, {"minor-radius", 0.5}}};
   const Terrain torus = make_terrain(settings, {});
   const Vec3 axis = Vec3{1, 2, -2} / 3.0;
   const auto [first, second] = shapes::directions_across(axis);
@@ -38,15 +38,15 @@ TEST(Torus, DistanceIsThatToTheNearestPointOfTheRing) {
 
 TEST(Torus, HasNormalsOnItsAxisAndOnItsRing) {
   const TerrainSettings settings = {.shape = TerrainShape::torus,
-                                    .geometry = {{"centre", Vec3{1, 2, 3}}, {"axis", Vec3{0, 0, 5}}}};
+                                    .geometry = {{"center", Vec3{1, 2, 3}}, {"axis", Vec3{0, 0, 5}}}};
   const Terrain torus = make_terrain(settings, {});
   const Vec3 axis = {0, 0, 1};
   const auto on_ring = terrain_gap(torus, {4, 2, 3});
   EXPECT_EQ(on_ring.n, axis);
   EXPECT_EQ(on_ring.d, -1.2);
-  const auto at_centre = terrain_gap(torus, {1, 2, 3});
-  EXPECT_EQ(at_centre.n, axis);
-  EXPECT_EQ(at_centre.d, 3.0 - 1.2);
+  const auto at_center = terrain_gap(torus, {1, 2, 3});
+  EXPECT_EQ(at_center.n, axis);
+  EXPECT_EQ(at_center.d, 3.0 - 1.2);
   EXPECT_EQ(terrain_gap(torus, {1, 2, 7}).n, axis);
   EXPECT_EQ(terrain_gap(torus, {1, 2, 7}).d, 5.0 - 1.2);
   EXPECT_EQ(terrain_gap(torus, {1, 2, -1}).n, -axis);
@@ -66,14 +66,14 @@ TEST(PlaneWithHole, IsThePlaneOrTheBowlWhicheverIsFurther) {
   EXPECT_LT(at_wall.n.x, 0.0) << "inwards";
   // Both distances 1: the plane's normal counts.
   const TerrainSettings level = {.shape = TerrainShape::plane_with_hole,
-                                 .geometry = {{"centre", Vec3{0, 1, 0}}, {"radius", 4.0}}};
+                                 .geometry = {{"center", Vec3{0, 1, 0}}, {"radius", 4.0}}};
   const auto tie = terrain_gap(make_terrain(level, {}), {3, 1, 0});
   EXPECT_EQ(tie.d, 1.0);
   EXPECT_EQ(tie.n, (Vec3{0, 1, 0}));
-  // The bowl's centre counts for nothing but a direction.
-  const auto centre = terrain_gap(make_terrain(level, {}), {0, 1, 0});
-  EXPECT_EQ(centre.d, 4.0);
-  EXPECT_EQ(centre.n, (Vec3{0, 1, 0}));
+  // The bowl's center counts for nothing but a direction.
+  const auto center = terrain_gap(make_terrain(level, {}), {0, 1, 0});
+  EXPECT_EQ(center.d, 4.0);
+  EXPECT_EQ(center.n, (Vec3{0, 1, 0}));
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(Voxels, LayersGoUpRowsToTheFrontAndCharactersToTheRight) {
 }
 
 // Empty cells around a body are no part of its box, and yet count for its place.
-TEST(Voxels, BoxIsThatOfTheFullCellsAndTheCentreThatOfAll) {
+TEST(Voxels, BoxIsThatOfTheFullCellsAndTheCenterThatOfAll) {
   const Model bare = test::build(scene_of({{"11"}}));
   ModelSettings settings =
       scene_of({{"....", "....", "...."}, {"....", ".11.", "...."}, {"....", "....", "...."}});

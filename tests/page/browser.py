@@ -17,7 +17,7 @@ class Failure(Exception):
 
 
 def wait_for(browser):
-    """Until the file is read to its end, and all its pictures are inflated."""
+    """Until the file is read to its end, and all its images are inflated."""
     end = time.monotonic() + LIMIT
     while not browser.call("return location.protocol === 'file:' && document.readyState === 'complete' && "
                            "(typeof aspic === 'undefined' || aspic.player.complete)"):
@@ -50,7 +50,7 @@ class Chromium:
         self.errors, self.requests, self.answers, self.number, self.text = [], [], {}, 0, b""
         read_back, write_back = os.pipe()
         read_there, write_there = os.pipe()
-        words = [program, "--headless", "--no-sandbox", "--remote-debugging-pipe", "--use-angle=gl-egl",  # Mesa's rasteriser, as of all our tests
+        words = [program, "--headless", "--no-sandbox", "--remote-debugging-pipe", "--use-angle=gl-egl",  # Mesa's rasterizer, as of all our tests
                  "--ignore-gpu-blocklist", "--hide-scrollbars", "--no-first-run", "--disable-background-networking",
                  "--disable-component-update", f"--user-data-dir={self.profile}", "about:blank"]
 
@@ -113,7 +113,7 @@ class Chromium:
         elif method == "Runtime.consoleAPICalled" and params["type"] in ("error", "assert", "warning"):
             self.errors.append(" ".join(str(a.get("value", a.get("description"))) for a in params["args"]))
         elif method == "Log.entryAdded" and params["entry"]["level"] in ("error", "warning"):
-            # What the software rasteriser says of itself is no fault of the page's.
+            # What the software rasterizer says of itself is no fault of the page's.
             if "GPU stall" not in params["entry"]["text"]:
                 self.errors.append(params["entry"]["text"])
         elif method == "Network.requestWillBeSent":

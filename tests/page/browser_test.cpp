@@ -1,5 +1,5 @@
-// Pages in Chromium and Firefox, on software rasterisers: golden pictures, keys, mouse, no error, no request.
-// To take new pictures as golden: ASPIC_UPDATE_GOLDEN=1 build/release/tests/page/page_browser_tests, then
+// Pages in Chromium and Firefox, on software rasterizers: golden images, keys, mouse, no error, no request.
+// To take new images as golden: ASPIC_UPDATE_GOLDEN=1 build/release/tests/page/page_browser_tests, then
 // look at tests/golden/page-*.png before committing them.
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ void expect_shown(const std::string& browser, const std::vector<Shot>& shots, bo
     ASSERT_EQ(run.exit_code, 0) << run.err;
     jobs.push_back({{"page", page},
                     {"time", std::stod(shot.time)},
-                    {"picture", directory.file(shot.golden() + ".png")},
+                    {"image", directory.file(shot.golden() + ".png")},
                     {"touch", touch}});
   }
   test::ProcessOptions python;
@@ -44,7 +44,7 @@ void expect_shown(const std::string& browser, const std::vector<Shot>& shots, bo
   EXPECT_EQ(driven.exit_code, 0) << driven.out << driven.err;
   for (const Shot& shot : shots) {
     SCOPED_TRACE(browser);
-    const test::Image image = test::read_picture(directory.file(shot.golden() + ".png"));
+    const test::Image image = test::read_image(directory.file(shot.golden() + ".png"));
     ASSERT_GT(image.width, 0) << shot.golden();
     test::expect_golden(image, shot.golden());
   }
@@ -91,10 +91,10 @@ std::vector<Shot> all_shots() {
       {"course-2021-sphere", "0.9"},
       {"course-2021-bowl", "1.2"},
       {"course-2018", "1.08"},
-      {"cube-plane", "1.4", {"--view", "colour=strain"}, "strain"},
+      {"cube-plane", "1.4", {"--view", "color=strain"}, "strain"},
       {"flag",
        "2.4",
-       {"--view", "colour=strain", "--view", "draw=[\"solid\", \"structural\"]"},
+       {"--view", "color=strain", "--view", "draw=[\"solid\", \"structural\"]"},
        "flag-strain"},
       {"cube-plane",
        "1.5",
@@ -108,7 +108,7 @@ std::vector<Shot> all_shots() {
   return shots;
 }
 
-TEST(EveryPage, OfTheBuiltInScenesHasAPicture) {
+TEST(EveryPage, OfTheBuiltInScenesHasAnImage) {
   std::set<std::string> shown = {"cube-plane"};
   for (const Shot& shot : all_shots())
     if (shot.name.empty()) shown.insert(shot.scene);

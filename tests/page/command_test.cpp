@@ -25,21 +25,21 @@ test::Finished run(const Words& more) {
 TEST(RunPage, HoldsWhatTheSummarySaysAndTheCommand) {
   const test::TemporaryDirectory dir;
   const std::string path = dir.file("a b.html");
-  const auto done = run({"--steps", "100", "--html", path, "--view", "colour=strain", "--speed", "0.5"});
+  const auto done = run({"--steps", "100", "--html", path, "--view", "color=strain", "--speed", "0.5"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr(path));
   const test::ReadPage page = test::read_page(dir.read("a b.html"));
   ASSERT_EQ(page.error, "");
   EXPECT_EQ(page.ends[0]["hash"], json_member(done.out, "state_hash"));
   EXPECT_EQ(page.ends[0]["steps"].back(), 100);
-  EXPECT_EQ(page.pictures.size(), 13u);  // every 1/120 s
+  EXPECT_EQ(page.images.size(), 13u);  // every 1/120 s
   EXPECT_EQ(page.facts["speed"], 0.5);
-  EXPECT_EQ(page.facts["view"]["colour"], "strain");
+  EXPECT_EQ(page.facts["view"]["color"], "strain");
   EXPECT_EQ(
       page.facts["command"],
       "aspic run cube-plane --json --set 'cube[0].particles-per-edge=3' --backend reference --steps 100 "
       "--html '" +
-          path + "' --view colour=strain --speed 0.5");
+          path + "' --view color=strain --speed 0.5");
   EXPECT_EQ(run({"--html", path}).exit_code, 6);  // it is there
 }
 
@@ -91,7 +91,7 @@ struct RunLivePage : testing::Test {
   const test::TemporaryDirectory dir;
 };
 
-TEST_F(RunLivePage, HoldsTheSceneAndTheHashesOfItsPictures) {
+TEST_F(RunLivePage, HoldsTheSceneAndTheHashesOfItsImages) {
   const auto done = run({"--steps", "100", "--html-live", dir.file("p.html"), "--state", dir.file("s.csv")});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const test::ReadPage page = test::read_page(dir.read("p.html"));

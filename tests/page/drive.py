@@ -1,5 +1,5 @@
-"""drive.py BROWSER JOBS: opens pages in chromium or firefox, saves pictures of them, and tries keys, mouse, fingers and buttons.
-JOBS is JSON: a list of {page, time, picture, touch}: the page's file, the moment [s], the PNG file to write, and whether
+"""drive.py BROWSER JOBS: opens pages in chromium or firefox, saves images of them, and tries keys, mouse, fingers and buttons.
+JOBS is JSON: a list of {page, time, image, touch}: the page's file, the moment [s], the PNG file to write, and whether
 everything that a reader can do is tried. Exit code 1, with a line for each fault, also where that browser is not installed."""
 import base64
 import json
@@ -21,7 +21,7 @@ def near(a, b):
 
 
 def fingers(b, x, y):
-    """Fingers and the wheel about the middle of the picture, by what becomes of the camera."""
+    """Fingers and the wheel about the middle of the image, by what becomes of the camera."""
     height = b.call("return document.getElementById('view').clientHeight")
 
     def camera(act, *what):
@@ -55,12 +55,12 @@ def touch(b):
     get = b.call
     times = get("return aspic.recording.times")
     now = lambda: get("return aspic.player.time")
-    picture = lambda: get("return aspic.picture(160, 90)")
+    image = lambda: get("return aspic.image(160, 90)")
     get("aspic.player.seek(0); document.activeElement.blur(); aspic.changed()")
     b.key("ArrowRight")
-    require(near(now(), times[1]), "→ does not go to the next picture")
+    require(near(now(), times[1]), "→ does not go to the next image")
     b.key("ArrowLeft")
-    require(near(now(), times[0]), "← does not go to the picture before")
+    require(near(now(), times[0]), "← does not go to the image before")
     b.key("End")
     require(near(now(), times[-1]), "End does not go to the end")
     b.key("Home")
@@ -81,30 +81,30 @@ def touch(b):
     # The bar, by its own keys, and the plot, by the mouse.
     get("const bar = document.getElementById('scrub'); bar.value = 0; bar.dispatchEvent(new Event('input')); bar.focus()")
     b.key("ArrowRight")
-    require(near(now(), times[1]), "the bar's key does not go to the next picture")
+    require(near(now(), times[1]), "the bar's key does not go to the next image")
     x, y, w = get("const r = document.getElementById('plot').getBoundingClientRect(); return [r.x, r.y + r.height / 2, r.width]")
     b.drag((x + 0.25 * w, y), (x + 0.5 * w, y))
     require(abs(now() - 0.5 * (times[0] + times[-1])) < 0.02 * times[-1], f"the plot's middle is {now()} s")
 
     # What is shown.
     get("document.activeElement.blur()")
-    before = picture()
-    for key, colour in ["2", "strain"], ["3", "signed-strain"], ["4", "speed"], ["5", "force"], ["6", "energy"]:
+    before = image()
+    for key, color in ["2", "strain"], ["3", "signed-strain"], ["4", "speed"], ["5", "force"], ["6", "energy"]:
         b.key(key)
-        require(get("return aspic.look.colour") == colour, f"{key} does not show {colour}")
-        require(not get("return document.getElementById('legend').hidden"), f"{colour} has no legend")
-        require(picture() != before, f"{colour} looks like material")
+        require(get("return aspic.look.color") == color, f"{key} does not show {color}")
+        require(not get("return document.getElementById('legend').hidden"), f"{color} has no legend")
+        require(image() != before, f"{color} looks like material")
     legend = lambda: get("const l = document.getElementById('legend'); return l.hidden ? '' : l.textContent")
     b.key("7")
-    require(get("return aspic.look.colour") == "type" and picture() != before, "7 does not show types")
+    require(get("return aspic.look.color") == "type" and image() != before, "7 does not show types")
     require(legend() == "", "types have a legend where no spring is drawn")
     get("aspic.setLook('shear', true)")
     require(legend() == "springsshear", f"the legend of shear springs is {legend()}")
     get("aspic.setLook('shear', false)")
     b.key("1")
-    require(picture() == before, "material does not come back")
+    require(image() == before, "material does not come back")
     axes = lambda: get("await new Promise((go) => requestAnimationFrame(() => setTimeout(go, 50)));"
-                       "const a = document.getElementById('axes-picture'); return a.getBoundingClientRect().width && "
+                       "const a = document.getElementById('axes-image'); return a.getBoundingClientRect().width && "
                        "Object.fromEntries([...a.querySelectorAll('text')].map((t) => [t.textContent, [+t.getAttribute('x'), +t.getAttribute('y')]]))")
     require(axes() == 0, "axes are drawn from the start")
     b.key("x")
@@ -118,23 +118,23 @@ def touch(b):
     require(axes() == 0, "X does not take the axes away")
     for key, what in ["k", "springs"], ["p", "particles"]:
         b.key(key)
-        require(picture() != before, f"{key} shows no {what}")
+        require(image() != before, f"{key} shows no {what}")
         get("for (const what of ['structural', 'shear', 'bending', 'particles']) aspic.setLook(what, false)")
-    require(picture() == before, "springs and particles do not go")
+    require(image() == before, "springs and particles do not go")
     get("document.getElementById('terrain').click()")
-    require(picture() != before, "terrain does not go")
+    require(image() != before, "terrain does not go")
     get("document.getElementById('terrain').click()")
     x, y = get("const r = document.getElementById('view').getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]")
     b.drag((x, y), (x + 60, y + 20))
-    require(picture() != before, "a drag does not turn the camera")
+    require(image() != before, "a drag does not turn the camera")
     get("document.activeElement.blur()")
     b.key("r")
-    require(picture() == before, "R does not bring the view back")
+    require(image() == before, "R does not bring the view back")
     b.key("+")
-    require(picture() != before, "+ does not zoom")
+    require(image() != before, "+ does not zoom")
     b.key("r")
     fingers(b, x, y)
-    require(picture() == before, "R does not bring the view back after fingers")
+    require(image() == before, "R does not bring the view back after fingers")
 
     # The rest of the page.
     dark = lambda: get("return getComputedStyle(document.body).backgroundColor")
@@ -169,8 +169,8 @@ def main():
             where = job["page"].rsplit("/", 1)[-1]
             notice = b.call("return document.getElementById('notice').textContent")
             require(notice == "", f"{where}: {notice}")
-            url = b.call(f"aspic.player.seek({job['time']}); return aspic.picture({SIZE[0]}, {SIZE[1]})")
-            with open(job["picture"], "wb") as file:
+            url = b.call(f"aspic.player.seek({job['time']}); return aspic.image({SIZE[0]}, {SIZE[1]})")
+            with open(job["image"], "wb") as file:
                 file.write(base64.b64decode(url.split(",")[1]))
             if job.get("touch"):
                 touch(b)

@@ -64,7 +64,7 @@ def touch(b, where):
             "await new Promise((go) => requestAnimationFrame(() => setTimeout(go, 50)))")
         done()
 
-    height = lambda picture: get(f"const x = aspic.recording.run.positions[{picture}]; let sum = 0; for (let i = 1; i < x.length; i += 3) sum += x[i]; return sum / (x.length / 3)")
+    height = lambda image: get(f"const x = aspic.recording.run.positions[{image}]; let sum = 0; for (let i = 1; i < x.length; i += 3) sum += x[i]; return sum / (x.length / 3)")
     count = get("return aspic.recording.read")
     middle, falling, last = count // 2, 4 * count // 5, count - 1
     at_middle, at_falling, at_last = height(middle), height(falling), height(last)
@@ -75,7 +75,7 @@ def touch(b, where):
     field = "[...document.querySelectorAll('.control')].find((c) => c.textContent.startsWith('gravity y')).querySelector('input[type=text]')"
     get(f"const field = {field}; field.value = '-4.9'; field.dispatchEvent(new Event('change')); await new Promise((go) => requestAnimationFrame(() => setTimeout(go, 50)))")
     done()
-    require(get("return aspic.recording.read") == count, f"{where}: with other gravity there are other pictures")
+    require(get("return aspic.recording.read") == count, f"{where}: with other gravity there are other images")
     require(height(middle) == at_middle, f"{where}: a change has changed the past")
     require(height(falling) > at_falling + 0.2, f"{where}: half of gravity changes nothing")
     require(say("bits").startswith("Changed at"), f"{where}: a changed run says {say('bits')}")
@@ -100,7 +100,7 @@ def touch(b, where):
     require("friction" in say("refused"), f"{where}: friction −3 is not refused: {say('refused')}")
     get(f"const field = {control('contact.friction', 'input[type=text]')}; field.closest('details').open = true; field.focus()")
     b.key("2")
-    require(get("return aspic.look.colour") == "material", f"{where}: a digit typed into a field changes colours")
+    require(get("return aspic.look.color") == "material", f"{where}: a digit typed into a field changes colors")
     get("document.activeElement.blur()")
 
     change("simulation.timestep", "input[type=text]", "1e-60", "change")
@@ -126,18 +126,18 @@ def touch(b, where):
 
 
 def actuated(b, where):
-    """The colour of springs that follow signals, of which other runs say nothing."""
+    """The color of springs that follow signals, of which other runs say nothing."""
     if not b.call("return aspic.recording.run.facts.actuated.length"):
-        require(not b.call("return aspic.offers('actuation')"), f"{where}: has the colour actuation without an actuator")
+        require(not b.call("return aspic.offers('actuation')"), f"{where}: has the color actuation without an actuator")
         return
-    picture = lambda: b.call("return aspic.picture(160, 90)")
-    b.call("aspic.player.playing = false; aspic.player.seek(Infinity); aspic.setColour('material')")
-    before = picture()
-    b.call("aspic.setColour('actuation')")
+    image = lambda: b.call("return aspic.image(160, 90)")
+    b.call("aspic.player.playing = false; aspic.player.seek(Infinity); aspic.setColor('material')")
+    before = image()
+    b.call("aspic.setColor('actuation')")
     require(not b.call("return document.getElementById('legend').hidden"), f"{where}: actuation has no legend")
-    require(picture() != before, f"{where}: actuation looks like material")
-    pictures, most = b.call("const { changes } = aspic.recording.run; return [changes.length, Math.max(...changes.at(-1).map(Math.abs))]")
-    require(pictures == b.call("return aspic.recording.read"), f"{where}: {pictures} pictures say how far rest lengths are changed")
+    require(image() != before, f"{where}: actuation looks like material")
+    images, most = b.call("const { changes } = aspic.recording.run; return [changes.length, Math.max(...changes.at(-1).map(Math.abs))]")
+    require(images == b.call("return aspic.recording.read"), f"{where}: {images} images say how far rest lengths are changed")
     require(0.001 < most < 1, f"{where}: rest lengths are changed by {most} at most")
 
 
@@ -167,8 +167,8 @@ def open_pages(b, job):
         require(diverged == b.call("return aspic.recording.diverged ?? ''"), f"{where}: another divergence")
         sheets = b.call("return aspic.recording.live.sheets")
         require((said[1] == "the same" and "in all" in said[2]) or (sheets and "denormal" in said[2]), f"{where}: {said}")
-        wait(b, "aspic.stats.pictures > 0", f"a picture of {where}")
-        print(f"{b.name} {where}: first picture after {b.call('return aspic.stats.firstPicture'):.0f} ms, "
+        wait(b, "aspic.stats.images > 0", f"an image of {where}")
+        print(f"{b.name} {where}: first image after {b.call('return aspic.stats.firstImage'):.0f} ms, "
               f"{b.call('return aspic.recording.rate'):.0f} steps a second")
         if job.get("inputs"):
             require(inputs(b, where) == job["inputs"], f"{where}: has other sliders of inputs than {job['inputs']}")

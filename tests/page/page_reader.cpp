@@ -156,16 +156,16 @@ ReadPage read_page(const std::string& html) {
     page.module = inflated(from_base64(element(html, "module")), page.error);
   }
   while (page.error.empty() && !numbers.complete()) {
-    std::vector<ReadPicture> picture;
+    std::vector<ReadImage> image;
     for (auto& [particles, balls, spins, changes] : runs) {
-      ReadPicture read;
+      ReadImage read;
       read.particles = particles.next(numbers);
       read.balls = balls.next(numbers);
       read.spins = spins.next(numbers);
       if (changes.count > 0) read.changes = changes.next(numbers);
-      picture.push_back(std::move(read));
+      image.push_back(std::move(read));
     }
-    page.pictures.push_back(std::move(picture));
+    page.images.push_back(std::move(image));
   }
   return page;
 }

@@ -10,8 +10,8 @@
 
 namespace aspic::test {
 
-/// One picture of one run.
-struct ReadPicture {
+/// One image of one run.
+struct ReadImage {
   std::vector<Vec3> particles, balls, spins, changes;
 };
 
@@ -24,10 +24,10 @@ struct ReadMesh {
 
 struct ReadPage {
   nlohmann::json facts, ends;
-  std::vector<std::vector<ReadPicture>> pictures;  ///< by picture, by run
-  std::vector<std::vector<ReadMesh>> meshes;       ///< by run, by body that has one
-  std::string start, module;                       ///< of a live page: the state's bytes; WebAssembly
-  std::string error;                               ///< what is wrong with the file; empty: nothing
+  std::vector<std::vector<ReadImage>> images;  ///< by image, by run
+  std::vector<std::vector<ReadMesh>> meshes;   ///< by run, by body that has one
+  std::string start, module;                   ///< of a live page: the state's bytes; WebAssembly
+  std::string error;                           ///< what is wrong with the file; empty: nothing
 };
 
 ReadPage read_page(const std::string& html);

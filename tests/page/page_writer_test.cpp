@@ -50,7 +50,7 @@ struct Kept {
 };
 
 struct PageTest : testing::Test {
-  /// The page of a run that takes every state, as a film at that rate would.
+  /// The page of a run that takes every state, as a video at that rate would.
   std::string page_of(const Kept& run, const PageSettings& settings = {}) {
     const std::string path = dir.file("page.html");
     const std::uint64_t last = run.states.size() - 1;
@@ -69,17 +69,17 @@ struct PageTest : testing::Test {
     ASSERT_EQ(page.error, "");
     const auto& facts = page.facts["runs"][run];
     const auto& steps = page.ends[run]["steps"];
-    ASSERT_EQ(steps.size(), page.pictures.size());
-    for (std::size_t f = 0; f < page.pictures.size(); ++f) {
+    ASSERT_EQ(steps.size(), page.images.size());
+    for (std::size_t f = 0; f < page.images.size(); ++f) {
       const State& state = kept.states.at(steps[f]);
-      const test::ReadPicture& picture = page.pictures[f][run];
+      const test::ReadImage& image = page.images[f][run];
       // Half a quantum, and the rounding of a product.
-      EXPECT_LE(farthest(picture.particles, state.position), 0.5000001 * facts["quantum"].get<double>());
-      EXPECT_LE(farthest(picture.balls, state.ball_position), 0.5000001 * facts["ballQuantum"].get<double>());
-      EXPECT_LE(farthest(picture.spins, state.ball_angular_velocity),
+      EXPECT_LE(farthest(image.particles, state.position), 0.5000001 * facts["quantum"].get<double>());
+      EXPECT_LE(farthest(image.balls, state.ball_position), 0.5000001 * facts["ballQuantum"].get<double>());
+      EXPECT_LE(farthest(image.spins, state.ball_angular_velocity),
                 0.5000001 * facts["spinQuantum"].get<double>());
       if (!facts["actuated"].empty()) {
-        EXPECT_LE(farthest(picture.changes, changes_of(kept.model, steps[f], kept.inputs.channels)),
+        EXPECT_LE(farthest(image.changes, changes_of(kept.model, steps[f], kept.inputs.channels)),
                   0.5000001 * facts["changeQuantum"].get<double>());
       }
     }
@@ -93,8 +93,8 @@ TEST_F(PageTest, HoldsRestLengthsOfActuatedSprings) {
   expect_near(page, 0, run);
   EXPECT_GT(page.facts["runs"][0]["actuated"].size(), 10u);
   EXPECT_TRUE(page.facts["runs"][0]["ranges"].contains("actuation"));
-  EXPECT_FALSE(page.pictures.back()[0].changes.empty());
-  // What actuators did so far, to six digits, picture by picture.
+  EXPECT_FALSE(page.images.back()[0].changes.empty());
+  // What actuators did so far, to six digits, image by image.
   ActuatorWork work;
   const auto& steps = page.ends[0]["steps"];
   ASSERT_EQ(page.ends[0]["work"].size(), steps.size());
@@ -107,17 +107,17 @@ TEST_F(PageTest, HoldsRestLengthsOfActuatedSprings) {
   const Kept steered("worm", {"actuator[0].signal=input", "actuator[0].ramp=0"}, 20, {0.5});
   const test::ReadPage page_of_it = test::read_page(page_of(steered));
   expect_near(page_of_it, 0, steered);
-  EXPECT_GT(page_of_it.pictures.back()[0].changes[0].x, 0.01);
+  EXPECT_GT(page_of_it.images.back()[0].changes[0].x, 0.01);
 }
 
-TEST_F(PageTest, HoldsEveryPictureOfAFilmWithinHalfAQuantum) {
+TEST_F(PageTest, HoldsEveryImageOfAVideoWithinHalfAQuantum) {
   const Kept run(
       "cube-plane",
       {"cube[0].particles-per-edge=4", "cube[0].position=[0.1, 1.2, 0.2]", "cube[0].rotation.angle=20"}, 200);
   const test::ReadPage page = test::read_page(page_of(run));
   expect_near(page, 0, run);
-  // At 60 pictures a second, and the last state.
-  ASSERT_EQ(page.pictures.size(), 13u);
+  // At 60 images a second, and the last state.
+  ASSERT_EQ(page.images.size(), 13u);
   EXPECT_EQ(page.ends[0]["steps"][1], 17);
   EXPECT_EQ(page.ends[0]["steps"][12], 200);
   EXPECT_EQ(page.ends[0]["hash"], state_hash_text(run.states.back()));
@@ -159,12 +159,12 @@ TEST_F(PageTest, HoldsTheMeshThatABodyIsDrawnAs) {
   }
 }
 
-TEST_F(PageTest, TakesFewerPicturesAtFewerASecondAndMoreInSlowMotion) {
+TEST_F(PageTest, TakesFewerImagesAtFewerASecondAndMoreInSlowMotion) {
   const Kept run("cube-plane", {"cube[0].particles-per-edge=2"}, 100);
-  EXPECT_EQ(test::read_page(page_of(run, {.fps = 20.0})).pictures.size(), 3u);
-  EXPECT_EQ(test::read_page(page_of(run, {.fps = 60.0, .speed = 0.25})).pictures.size(), 25u);
-  // More pictures than steps: no step twice.
-  EXPECT_EQ(test::read_page(page_of(run, {.fps = 60.0, .speed = 0.001})).pictures.size(), 101u);
+  EXPECT_EQ(test::read_page(page_of(run, {.fps = 20.0})).images.size(), 3u);
+  EXPECT_EQ(test::read_page(page_of(run, {.fps = 60.0, .speed = 0.25})).images.size(), 25u);
+  // More images than steps: no step twice.
+  EXPECT_EQ(test::read_page(page_of(run, {.fps = 60.0, .speed = 0.001})).images.size(), 101u);
 }
 
 TEST_F(PageTest, SeveralRunsShareAPage) {
@@ -185,7 +185,7 @@ TEST_F(PageTest, SeveralRunsShareAPage) {
   const test::ReadPage page = test::read_page(read_file(dir.file("both.html")).value());
   expect_near(page, 0, a);
   expect_near(page, 1, b);
-  EXPECT_EQ(page.pictures.size(), 3u);  // what did not go on is not there twice
+  EXPECT_EQ(page.images.size(), 3u);  // what did not go on is not there twice
   EXPECT_EQ(page.facts["runs"][1]["name"], "h 2 ms");
   EXPECT_FALSE(page.ends[0].contains("diverged"));
   EXPECT_THAT(page.ends[1]["diverged"].get<std::string>(), HasSubstr("step 31: particle 7"));

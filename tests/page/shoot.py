@@ -1,4 +1,4 @@
-"""shoot.py PAGE SECONDS PICTURE …: the window of Chromium with each page at a moment, as a PNG, the first one light, others dark."""
+"""shoot.py PAGE SECONDS IMAGE …: the window of Chromium with each page at a moment, as a PNG, the first one light, others dark."""
 import sys
 
 import browser

@@ -80,37 +80,37 @@ TEST(Engines, AloneTheLeaderLeavesItsShadowBehind) {
   EXPECT_EQ(engines.shadow().solver->state()->step, 0u);
 }
 
-TEST(Engines, CancellingOrASpentBudgetEndsAJobEarly) {
+TEST(Engines, CancelingOrASpentBudgetEndsAJobEarly) {
   Engines engines = engines_of(outside, nullptr);
   EXPECT_EQ(engines.advance_outside({0, 1000, 1e9}, true)->steps, 0u);
   EXPECT_EQ(engines.advance_outside({0, 1000, 0.0}, false)->steps, 0u);
 }
 
-/// Its steps never end but by being cancelled, which comes when the first has begun.
-class Cancelling final : public Endless {
+/// Its steps never end but by being canceled, which comes when the first has begun.
+class Canceling final : public Endless {
  public:
-  Cancelling(std::unique_ptr<Solver> inner, std::atomic<bool>& cancelled)
-      : Endless(std::move(inner)), cancelled_(cancelled) {}
+  Canceling(std::unique_ptr<Solver> inner, std::atomic<bool>& canceled)
+      : Endless(std::move(inner)), canceled_(canceled) {}
   Result<Advance> advance(std::uint64_t steps) override {
-    cancelled_ = true;
+    canceled_ = true;
     return Endless::advance(steps);
   }
 
  private:
-  std::atomic<bool>& cancelled_;
+  std::atomic<bool>& canceled_;
 };
 
-TEST(Engines, CancellingDropsTheStepInProgressOfBoth) {
+TEST(Engines, CancelingDropsTheStepInProgressOfBoth) {
   Engines engines = engines_of(outside, nullptr);
-  std::atomic<bool> cancelled = false;
+  std::atomic<bool> canceled = false;
   const BackendRow also_outside = outside;
   Backend endless;
   endless.row = &also_outside;
-  endless.solver = std::make_unique<Cancelling>(
-      std::move(*make_reference_solver(engines.model(), Precision::single)), cancelled);
+  endless.solver = std::make_unique<Canceling>(
+      std::move(*make_reference_solver(engines.model(), Precision::single)), canceled);
   engines.set_shadow(std::move(endless));
   const std::string start = hash_after(0);
-  const auto outcome = engines.advance_outside({0, 3, 1e9}, cancelled);
+  const auto outcome = engines.advance_outside({0, 3, 1e9}, canceled);
   ASSERT_TRUE(outcome.ok()) << outcome.error().message();
   EXPECT_EQ(outcome->steps, 0u) << "the leader takes its steps back: the shadow has none";
   EXPECT_EQ(state_hash_text(outcome->leader.state), start);

@@ -44,7 +44,7 @@ class InMotion : public aspic::testing::GlTest, public ::testing::WithParamInter
     }
   }
 
-  /// Pictures until a condition holds, for which another thread works; a failure after 20 s.
+  /// Images until a condition holds, for which another thread works; a failure after 20 s.
   template <class Condition>
   void update_until(Condition condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);

@@ -23,34 +23,34 @@ TEST(Worker, RunsOneJobAfterTheOther) {
 TEST(Worker, FinishCancelsAJobThatWouldNeverEnd) {
   Worker worker;
   bool ended = false;
-  worker.start([&ended](const std::atomic<bool>& cancelled) {
-    while (!cancelled) std::this_thread::yield();
+  worker.start([&ended](const std::atomic<bool>& canceled) {
+    while (!canceled) std::this_thread::yield();
     ended = true;
   });
   EXPECT_TRUE(worker.busy());
   worker.finish();
   EXPECT_TRUE(ended);
-  // Cancelling was for that job's alone.
-  bool was_cancelled = true;
-  worker.start([&was_cancelled](const std::atomic<bool>& cancelled) { was_cancelled = cancelled; });
+  // Canceling was for that job's alone.
+  bool was_canceled = true;
+  worker.start([&was_canceled](const std::atomic<bool>& canceled) { was_canceled = canceled; });
   worker.wait();
-  EXPECT_FALSE(was_cancelled);
+  EXPECT_FALSE(was_canceled);
 }
 
-TEST(Worker, JobsWaitForOneAnotherAndCancellingForgetsThoseThatWait) {
+TEST(Worker, JobsWaitForOneAnotherAndCancelingForgetsThoseThatWait) {
   Worker worker;
   std::string order;
   std::atomic<bool> begun = false;
-  worker.start([&](const std::atomic<bool>& cancelled) {
+  worker.start([&](const std::atomic<bool>& canceled) {
     begun = true;
-    while (!cancelled) std::this_thread::yield();
+    while (!canceled) std::this_thread::yield();
     order += "a";
   });
   worker.start([&](const std::atomic<bool>&) { order += "b"; });
   EXPECT_EQ(worker.jobs(), 2u);
   while (!begun) std::this_thread::yield();
   worker.cancel();
-  worker.start([&](const std::atomic<bool>& cancelled) { order += cancelled ? "cancelled" : "c"; });
+  worker.start([&](const std::atomic<bool>& canceled) { order += canceled ? "canceled" : "c"; });
   worker.wait();
   EXPECT_EQ(order, "ac");
 }
@@ -76,8 +76,8 @@ TEST(Worker, EndsWithAJobUnderWay) {
   std::atomic<bool> ended = false;
   {
     Worker worker;
-    worker.start([&ended](const std::atomic<bool>& cancelled) {
-      while (!cancelled) std::this_thread::yield();
+    worker.start([&ended](const std::atomic<bool>& canceled) {
+      while (!canceled) std::this_thread::yield();
       ended = true;
     });
   }

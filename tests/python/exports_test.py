@@ -189,7 +189,7 @@ def test_trimesh_reads_the_object_of_a_cache(run: Run) -> None:
     if run.words[0] == "cube-plane":
         assert scene.is_watertight and scene.is_winding_consistent
         edge = np.ptp(positions[0], axis=0)
-        assert scene.volume == pytest.approx(edge.prod(), rel=1e-5)  # anticlockwise from outside
+        assert scene.volume == pytest.approx(edge.prod(), rel=1e-5)  # counterclockwise from outside
     # Every square, and every triangle of a mesh, of every sample, by the file's own faces.
     lines = pathlib.Path("run.obj").read_text().splitlines()
     faces = [[int(w) - 1 for w in line.split()[1:]] for line in lines if line.startswith("f ")]
@@ -318,7 +318,7 @@ def test_a_simulation_exports_to_all_of_them() -> None:
 
 def test_batches_are_saved_as_zarr() -> None:
     batch = aspic.Batch(Run("cube").sim.scene, count=3)
-    out = batch.run(0.1, every=0.05, record=["centre-of-mass", "energy", "positions"])
+    out = batch.run(0.1, every=0.05, record=["center-of-mass", "energy", "positions"])
     out.save("run.zarr")
     with xarray.open_zarr("run.zarr", consolidated=False) as data:
         equal(data["positions"].values, out["positions"])
@@ -326,4 +326,4 @@ def test_batches_are_saved_as_zarr() -> None:
         assert [str(word) for word in data["hash"].values] == out.hash
     back = aspic.BatchTrajectory.load("run.zarr")
     assert back.hash == out.hash
-    equal(back["centre-of-mass"], out["centre-of-mass"])
+    equal(back["center-of-mass"], out["center-of-mass"])

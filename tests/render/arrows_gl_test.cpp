@@ -13,13 +13,13 @@ namespace {
 class Arrows : public test::Studio {
  protected:
   static constexpr int width = 320, height = 240;
-  static PictureOptions from_front() {
-    PictureOptions options;
+  static ImageOptions from_front() {
+    ImageOptions options;
     options.view.camera.position = {0.0, 0.0, 10.0};
     options.view.camera.target = {0.0, 0.0, 0.0};
     options.view.draw = {.solid = false};
     options.view.arrows.net = true;
-    options.background = Colour{0.0f, 0.0f, 0.0f};
+    options.background = Color{0.0f, 0.0f, 0.0f};
     options.legend = false;
     return options;
   }
@@ -34,7 +34,7 @@ TEST_F(Arrows, EndWhereTheForceSays) {
   const State state = initial_state(model, Precision::single);
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     for (const Vec3 force : {Vec3{20.0, 0.0, 0.0}, {-10.0, 16.0, 0.0}, {6.0, -12.0, 15.0}}) {
-      PictureOptions options = from_front();
+      ImageOptions options = from_front();
       options.view.camera.projection = projection;
       options.view.arrow_scale = 8.0;
       options.arrows = {{{{0.5, -0.5, 0.0}, force, ArrowKind::net}}, 1.0};
@@ -60,7 +60,7 @@ TEST_F(Arrows, EndWhereTheForceSays) {
 TEST_F(Arrows, BeyondACutAreLeftOut) {
   const Model model = test::particles({{0.0, 0.0, 0.0}}, {{}});
   const State state = initial_state(model, Precision::single);
-  PictureOptions options = from_front();
+  ImageOptions options = from_front();
   options.arrows = {{{{-1.0, 0.0, 1.0}, {0.0, 9.0, 0.0}, ArrowKind::net},
                      {{1.0, 0.0, -1.0}, {0.0, 9.0, 0.0}, ArrowKind::net}},
                     1.0};
@@ -75,7 +75,7 @@ TEST_F(Arrows, BeyondACutAreLeftOut) {
 TEST_F(Arrows, AxesAreInTheCornerWhereTheViewAsksForThem) {
   const Model model = test::particles({{0.0, 0.0, 0.0}}, {{}});
   const State state = initial_state(model, Precision::single);
-  PictureOptions options = from_front();
+  ImageOptions options = from_front();
   options.view.arrows = {};
   const test::Image without = draw(model, state, options, width, height);
   options.view.axes = true;

@@ -1,4 +1,4 @@
-// What stands still is drawn once: pictures are the same bytes as if everything were drawn anew.
+// What stands still is drawn once: images are the same bytes as if everything were drawn anew.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace aspic {
 namespace {
 
-/// Two renderers of the same pictures: one may keep what stands still, and the other has just looked
+/// Two renderers of the same images: one may keep what stands still, and the other has just looked
 /// elsewhere.
 class BackdropGl : public test::Studio {
  protected:
@@ -33,7 +33,7 @@ class BackdropGl : public test::Studio {
     ASSERT_TRUE(cold_->set_model(model).ok());
   }
 
-  std::vector<std::byte> picture(Renderer& by, const State& state, const PictureOptions& options) {
+  std::vector<std::byte> image(Renderer& by, const State& state, const ImageOptions& options) {
     const auto uploaded = by.upload(state);
     EXPECT_TRUE(uploaded.ok());
     const Status drawn = by.draw(width_, height_, *uploaded, options);
@@ -41,19 +41,19 @@ class BackdropGl : public test::Studio {
     return read(by);
   }
 
-  /// Three pictures in a row, so that the second draws the backdrop and the third finds it.
-  void expect_same(const PictureOptions& options, const char* what) {
-    PictureOptions elsewhere = options;
+  /// Three images in a row, so that the second draws the backdrop and the third finds it.
+  void expect_same(const ImageOptions& options, const char* what) {
+    ImageOptions elsewhere = options;
     elsewhere.view.camera.position.x += 0.5;
     for (int n = 0; n < 3; ++n) {
       const State state = moved(n);
-      const auto warm = picture(renderer(), state, options);
-      picture(*cold_, state, elsewhere);
-      const auto cold = picture(*cold_, state, options);
+      const auto warm = image(renderer(), state, options);
+      image(*cold_, state, elsewhere);
+      const auto cold = image(*cold_, state, options);
       ASSERT_EQ(warm.size(), cold.size());
       std::size_t different = 0;
       for (std::size_t i = 0; i < warm.size(); ++i) different += warm[i] != cold[i] ? 1 : 0;
-      EXPECT_EQ(different, 0u) << what << ", picture " << n;
+      EXPECT_EQ(different, 0u) << what << ", image " << n;
     }
   }
 
@@ -83,7 +83,7 @@ TEST_P(BackdropOfScene, ChangesNoByte) {
   ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
-  PictureOptions options;
+  ImageOptions options;
   options.view = scene->view;
   step_ = 3000;  // balls have been launched, and a lift has moved
   expect_same(options, "as the scene is shown");
@@ -107,7 +107,7 @@ TEST_F(BackdropGl, NoChangeIsMissed) {
   ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
-  PictureOptions options;
+  ImageOptions options;
   options.view = scene->view;
   expect_same(options, "at first");
   const std::pair<const char*, std::function<void()>> changes[] = {
@@ -123,14 +123,14 @@ TEST_F(BackdropGl, NoChangeIsMissed) {
       {"springs", [&] { options.view.draw.shear = true; }},
       {"nothing", [&] { options.view.draw = {.solid = false}; }},
       {"bodies again", [&] { options.view.draw = scene->view.draw; }},
-      {"strain", [&] { options.view.colour = ViewColour::strain; }},
+      {"strain", [&] { options.view.color = ViewColor::strain; }},
       {"text",
        [&] {
          options.text = {{"a", "b"}};
        }},
       {"background",
        [&] {
-         options.background = Colour{0.2f, 0.3f, 0.1f};
+         options.background = Color{0.2f, 0.3f, 0.1f};
        }},
       {"none", [&] { options.background.reset(); }},
       {"pull",
@@ -148,22 +148,22 @@ TEST_F(BackdropGl, NoChangeIsMissed) {
 }
 
 /// Light maps and what else depends on the state alone are kept while nothing moves: the camera and the look
-/// may change, and the pictures are those of a renderer that has just drawn another state.
+/// may change, and the images are those of a renderer that has just drawn another state.
 TEST_F(BackdropGl, StillLightChangesNoByte) {
   const auto scene = load_scene("cube-and-balls", {});
   ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
-  PictureOptions options;
+  ImageOptions options;
   options.view = scene->view;
   step_ = 3000;
   State state = moved(0);
   const auto expect_same_light = [&](const char* what) {
     for (int n = 0; n < 2; ++n) {
       options.view.camera.position.x += 0.3;
-      const auto warm = picture(renderer(), state, options);
-      picture(*cold_, moved(2), options);
-      EXPECT_TRUE(picture(*cold_, state, options) == warm) << what << ", picture " << n;
+      const auto warm = image(renderer(), state, options);
+      image(*cold_, moved(2), options);
+      EXPECT_TRUE(image(*cold_, state, options) == warm) << what << ", image " << n;
     }
   };
   expect_same_light("at first");
@@ -176,18 +176,18 @@ TEST_F(BackdropGl, StillLightChangesNoByte) {
       {"cut", [&] { options.view.cut.inside = CutInside::springs; }},
       {"cut elsewhere", [&] { options.view.cut.offset = 0.4; }},
       {"whole", [&] { options.view.cut = {}; }},
-      {"strain", [&] { options.view.colour = ViewColour::strain; }},
+      {"strain", [&] { options.view.color = ViewColor::strain; }},
       {"one particle", [&] { state.position.back().y += 0.25; }},
       {"one ball", [&] { state.ball_position.front().x += 0.5; }},
       {"another state without shadows",
        [&] {
          options.shadows = false;
-         picture(renderer(), moved(1), options);
+         image(renderer(), moved(1), options);
          options.shadows = true;
        }},
       {"another state from elsewhere, then the same", [&] {
-         picture(renderer(), moved(1), options);
-         picture(renderer(), state, options);
+         image(renderer(), moved(1), options);
+         image(renderer(), state, options);
        }}};
   for (const auto& [what, change] : changes) {
     change();
@@ -200,12 +200,12 @@ TEST_F(BackdropGl, StillLightIsNotDrawnAgain) {
   ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
-  PictureOptions options;
+  ImageOptions options;
   options.view = scene->view;
   const auto draws_maps = [&](const State& state) {
     options.view.camera.position.x += 0.3;
     renderer().set_profiling(true);
-    picture(renderer(), state, options);
+    image(renderer(), state, options);
     const auto passes = renderer().pass_times();
     renderer().set_profiling(false);
     return std::ranges::any_of(passes, [](const gl::PassTime& pass) { return pass.name == "light maps"; });
@@ -221,26 +221,26 @@ TEST_F(BackdropGl, AnotherModelHasItsOwn) {
     ASSERT_TRUE(scene.ok()) << scene.error().message();
     const Model model = test::build(scene->model);
     show(model);
-    PictureOptions options;
+    ImageOptions options;
     options.view.camera = {};  // the same for all
     expect_same(options, name);
   }
 }
 
-/// What is drawn outside the boxes would be lost, so they must hold every pixel in which a picture with
+/// What is drawn outside the boxes would be lost, so they must hold every pixel in which an image with
 /// bodies differs from one without.
 TEST_F(BackdropGl, BoxesHoldEverySeenParticle) {
   const auto scene = load_scene("cube-plane", {});
   ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
-  PictureOptions options;
+  ImageOptions options;
   options.view = scene->view;
-  PictureOptions empty = options;
+  ImageOptions empty = options;
   empty.view.draw = {.solid = false};
   options.shadows = empty.shadows = false;
   const State state = moved(1);
-  const auto with = picture(renderer(), state, options), without = picture(*cold_, state, empty);
+  const auto with = image(renderer(), state, options), without = image(*cold_, state, empty);
   const Camera camera(options.view.camera, width_, height_);
   render_layout::Frame frame = {};
   frame.view_projection = camera.projection() * camera.view();

@@ -1,4 +1,4 @@
-// Balls stand where a state says, once they are launched, and turn from picture to picture.
+// Balls stand where a state says, once they are launched, and turn from image to image.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,8 +28,8 @@ class Balls : public test::Studio {
     settings.balls.push_back(ball);
     return settings;
   }
-  static PictureOptions plain() {
-    PictureOptions options;
+  static ImageOptions plain() {
+    ImageOptions options;
     options.view.camera.position = {0.0, 0.0, 8.0};
     options.view.camera.target = {0.0, 0.0, 0.0};
     options.legend = false;
@@ -56,7 +56,7 @@ class Balls : public test::Studio {
 
 TEST_F(Balls, AreDiscsWhereTheStateSays) {
   const Model model = test::build(spinning_ball());
-  PictureOptions empty = plain();
+  ImageOptions empty = plain();
   empty.view.draw = {.solid = false};
   const State state = initial_state(model, Precision::single);
   const test::Image background = draw(model, state, empty, width, height);
@@ -94,7 +94,7 @@ TEST_F(Balls, CastShadowsAsWideAsTheyAre) {
   ball.position = {0.0, -0.4, 0.0};  // a tenth above the ground
   settings.balls.push_back(ball);
   Model model = test::build(settings);
-  PictureOptions options = plain();
+  ImageOptions options = plain();
   options.view.camera.position = {0.0, 7.0, 4.0};
   options.view.camera.target = {0.0, -1.0, 0.0};
   const State state = initial_state(model, Precision::single);
@@ -129,7 +129,7 @@ TEST_F(Balls, CastShadowsAsWideAsTheyAre) {
 TEST_F(Balls, WaitUnseenForTheirLaunch) {
   Model model = test::build(spinning_ball());
   State state = initial_state(model, Precision::single);
-  PictureOptions empty = plain();
+  ImageOptions empty = plain();
   empty.view.draw = {.solid = false};
   const test::Image background = draw(model, state, empty, width, height);
   model.balls[0].launch_step = 100;
@@ -139,7 +139,7 @@ TEST_F(Balls, WaitUnseenForTheirLaunch) {
   EXPECT_GT(different(draw(model, state, plain(), width, height), background), 500);
 }
 
-TEST_F(Balls, TurnByTheirAngularVelocityBetweenPictures) {
+TEST_F(Balls, TurnByTheirAngularVelocityBetweenImages) {
   const Model model = test::build(spinning_ball());
   State state = initial_state(model, Precision::single);
   const test::Image first = draw(model, state, plain(), width, height);
@@ -160,7 +160,7 @@ TEST_F(Balls, TurnByTheirAngularVelocityBetweenPictures) {
 TEST_F(Balls, CountInTheRangeOfSpeed) {
   ModelSettings settings = spinning_ball();
   settings.balls[0].velocity = {-12.0, 9.0, 0.0};
-  const QuantityRange range = default_range(test::build(settings), ViewColour::speed);
+  const QuantityRange range = default_range(test::build(settings), ViewColor::speed);
   EXPECT_EQ(range[0], 0.0);
   EXPECT_EQ(range[1], 20.0);  // 15 m/s, rounded up
 }

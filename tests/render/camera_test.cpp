@@ -32,7 +32,7 @@ TEST(Camera, FieldOfViewIsVertical) {
   ASSERT_TRUE(top);
   EXPECT_NEAR(top->x, 400.0, pixel_tolerance);
   EXPECT_NEAR(top->y, 0.0, pixel_tolerance);
-  EXPECT_NEAR(test::pixels_per_metre(camera, 5.0), 40.0, 1e-4);
+  EXPECT_NEAR(test::pixels_per_meter(camera, 5.0), 40.0, 1e-4);
 }
 
 TEST(Camera, SightLineThroughAProjectedPointHitsIt) {
@@ -91,8 +91,8 @@ TEST(Camera, OrthographicKeepsParallelsAndSizes) {
   CameraSettings perspective = settings;
   perspective.projection = Projection::perspective;
   EXPECT_NEAR(
-      test::pixels_per_metre(camera, 1.0),
-      test::pixels_per_metre(Camera(perspective, 641, 359), length(settings.position - settings.target)),
+      test::pixels_per_meter(camera, 1.0),
+      test::pixels_per_meter(Camera(perspective, 641, 359), length(settings.position - settings.target)),
       1e-3);
 }
 

@@ -12,7 +12,7 @@ TEST_F(FramePolicyTest, HardwareHasNone) {
   EXPECT_EQ(FramePolicy::create(context()) != nullptr, context().info().is_software);
 }
 
-TEST_F(FramePolicyTest, PicturesComeNoFasterThanADisplayShowsAndLeaveTimeForSteps) {
+TEST_F(FramePolicyTest, ImagesComeNoFasterThanADisplayShowsAndLeaveTimeForSteps) {
   const auto policy = FramePolicy::create(context());
   if (!policy) GTEST_SKIP() << "hardware has none";
   EXPECT_EQ(policy->interval(false, false, 1.0), 1.0 / 60.0);

@@ -1,4 +1,4 @@
-// The cameras of the built-in scenes: how much of a picture the bodies fill from beginning to end.
+// The cameras of the built-in scenes: how much of an image the bodies fill from beginning to end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,10 +18,10 @@
 namespace aspic {
 namespace {
 
-/// A film's shape, and that of the first window's view: 1280 × 720 with panels on both sides.
+/// A video's shape, and that of the first window's view: 1280 × 720 with panels on both sides.
 constexpr std::array<std::array<int, 2>, 2> shapes = {{{320, 180}, {240, 224}}};
 
-/// Pixels of the picture within the convex hull of these places.
+/// Pixels of the image within the convex hull of these places.
 void add_hull(const Camera& camera, std::span<const Vec3> places, int width, int height,
               std::set<int>& pixels) {
   std::vector<std::array<double, 2>> points;
@@ -59,30 +59,30 @@ void add_hull(const Camera& camera, std::span<const Vec3> places, int width, int
 struct Framing {
   std::string scene;
   std::vector<std::string> overrides = {};
-  double film = 0.08, window = 0.08;
+  double video = 0.08, window = 0.08;
 };
 
 void PrintTo(const Framing& framing, std::ostream* out) {
   *out << framing.scene;
 }
 
-/// Scenes that cannot fill 8 % of every picture, and why.
+/// Scenes that cannot fill 8 % of every image, and why.
 const std::map<std::string, const char*> exceptions = {
     {"ball-pit", "the bowl is empty at the start: nothing is there to see"},
     {"cube-plane",
-     "in a film: a cube of 4 m falls by 8 m, and a camera at rest that has both ends and the horizon in a "
-     "picture of 16 : 9 comes to 7.6 %"},
-    {"cubes-tower", "eight times as high as wide: as high as the picture it has 7.7 %"},
-    {"knot", "a strip that is thin for its length: a picture that has both ends of it has 1.1 %"}};
+     "in a video: a cube of 4 m falls by 8 m, and a camera at rest that has both ends and the horizon in a "
+     "image of 16 : 9 comes to 7.6 %"},
+    {"cubes-tower", "eight times as high as wide: as high as the image it has 7.7 %"},
+    {"knot", "a strip that is thin for its length: an image that has both ends of it has 1.1 %"}};
 
 class Framed : public test::Studio, public ::testing::WithParamInterface<Framing> {
  protected:
-  /// The share of the picture in which a body is seen, whatever hides it left out; of a net all that it
+  /// The share of the image in which a body is seen, whatever hides it left out; of a net all that it
   /// spans, since its cords are thinner than a pixel.
   double share(const Scene& scene, const Model& model, const State& state, const Following& following,
                const std::array<int, 2>& shape) {
     const auto [width, height] = shape;
-    PictureOptions options;
+    ImageOptions options;
     options.view = scene.view;
     options.view.camera = fitted(moved(scene.view.camera, following.offset(model, state)), width, height);
     options.shadows = false;
@@ -103,7 +103,7 @@ class Framed : public test::Studio, public ::testing::WithParamInterface<Framing
   }
 };
 
-TEST_P(Framed, BodiesFillThePictureFromBeginningToEnd) {
+TEST_P(Framed, BodiesFillTheImageFromBeginningToEnd) {
   const Framing& framing = GetParam();
   const auto scene = load_scene(framing.scene, framing.overrides);
   ASSERT_TRUE(scene.ok()) << scene.error().message();
@@ -113,18 +113,18 @@ TEST_P(Framed, BodiesFillThePictureFromBeginningToEnd) {
   const Following following(*scene, model, Precision::single);
   const auto steps = static_cast<std::uint64_t>(
       std::llround(scene->model.simulation.duration / scene->model.simulation.timestep));
-  constexpr std::uint64_t pictures = 12;
+  constexpr std::uint64_t images = 12;
   std::array<double, 2> least = {1.0, 1.0};
-  for (std::uint64_t i = 0; i <= pictures; ++i) {
-    ASSERT_TRUE((*solver)->advance(i * steps / pictures - (i > 0 ? (i - 1) * steps / pictures : 0)).ok());
+  for (std::uint64_t i = 0; i <= images; ++i) {
+    ASSERT_TRUE((*solver)->advance(i * steps / images - (i > 0 ? (i - 1) * steps / images : 0)).ok());
     const auto state = (*solver)->state();
     ASSERT_TRUE(state.ok());
     for (std::size_t k = 0; k < shapes.size(); ++k)
       least[k] = std::min(least[k], share(*scene, model, *state, following, shapes[k]));
   }
-  std::printf("%s: %.1f %% of a film's picture, %.1f %% of the window's\n", framing.scene.c_str(),
+  std::printf("%s: %.1f %% of a video's image, %.1f %% of the window's\n", framing.scene.c_str(),
               100.0 * least[0], 100.0 * least[1]);
-  EXPECT_GE(least[0], framing.film);
+  EXPECT_GE(least[0], framing.video);
   EXPECT_GE(least[1], framing.window);
 }
 
@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Framed, ::testing::ValuesIn(framings),
 TEST(Framing, EveryBuiltInSceneIsLookedAtOrExcepted) {
   for (const BuiltinScene& scene : list_builtin_scenes()) {
     const auto* const found = std::ranges::find(framings, scene.name, &Framing::scene);
-    const bool full = found != std::end(framings) && found->film >= 0.08 && found->window >= 0.08;
+    const bool full = found != std::end(framings) && found->video >= 0.08 && found->window >= 0.08;
     EXPECT_EQ(full, !exceptions.contains(std::string(scene.name))) << scene.name;
   }
 }

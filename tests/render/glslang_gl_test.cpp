@@ -1,5 +1,5 @@
 // Khronos' reference compiler accepts every shader of the project with every set of defines that solvers and
-// pictures compile it with: a driver that reads the language more strictly than Mesa does finds nothing to
+// images compile it with: a driver that reads the language more strictly than Mesa does finds nothing to
 // refuse.
 #include <fmt/format.h>
 #include <glad/gl.h>
@@ -91,7 +91,7 @@ class Glslang : public aspic::testing::GlTest {
     }
   }
 
-  void compile_pictures() {
+  void compile_images() {
     ModelSettings settings = test::cube_on_plane(3);
     settings.balls.emplace_back();
     settings.goal_nets.emplace_back();
@@ -103,10 +103,10 @@ class Glslang : public aspic::testing::GlTest {
     ASSERT_TRUE((*renderer)->set_model(model).ok());
     const auto state = (*renderer)->upload(initial_state(model, Precision::single));
     ASSERT_TRUE(state.ok());
-    PictureOptions options;
+    ImageOptions options;
     options.view.draw = {
         .solid = true, .particles = true, .structural = true, .shear = true, .bending = true};
-    options.view.colour = ViewColour::strain;
+    options.view.color = ViewColor::strain;
     options.view.cut.inside = CutInside::section;
     options.view.arrows.net = true;
     options.arrows.arrows = {{{}, {0.0, 1.0, 0.0}, ArrowKind::net}};
@@ -114,7 +114,7 @@ class Glslang : public aspic::testing::GlTest {
     options.text = {{"label", "value"}};
     ASSERT_TRUE((*renderer)->draw(64, 48, *state, options).ok());
     ASSERT_TRUE((*renderer)->request_pick({1.0, 1.0, 64.0, 48.0}).ok());
-    // What this picture does without.
+    // What this image does without.
     const RenderPrograms p = RenderPrograms::create(*own_, gl::ShaderLibrary());
     for (const RenderProgram* const program :
          {&p.mesh_skin, &p.mesh_normals, &p.rods, &p.sheet, &p.glass, &p.reference_ground, &p.halve[0],
@@ -143,7 +143,7 @@ class Glslang : public aspic::testing::GlTest {
 
 TEST_F(Glslang, AcceptsEveryShaderWithEverySetOfDefines) {
   compile_solvers();
-  compile_pictures();
+  compile_images();
   const test::TemporaryDirectory directory;
   int number = 0;
   for (const auto& [kind, sources] : seen) {
@@ -168,7 +168,7 @@ TEST_F(Glslang, AcceptsEveryShaderWithEverySetOfDefines) {
       for (const std::string& source : sources)
         found = found || source.find(text.substr(main)) != std::string::npos;
     }
-    EXPECT_TRUE(found) << file.name << " is compiled by no solver and no picture of this test";
+    EXPECT_TRUE(found) << file.name << " is compiled by no solver and no image of this test";
   }
 }
 

@@ -1,5 +1,5 @@
-// The default view of every built-in scene at a stated step, 640 × 360, on Mesa's software rasterisers. To
-// take new pictures as golden: ASPIC_UPDATE_GOLDEN=1 build/release/tests/render/render_tests
+// The default view of every built-in scene at a stated step, 640 × 360, on Mesa's software rasterizers. To
+// take new images as golden: ASPIC_UPDATE_GOLDEN=1 build/release/tests/render/render_tests
 // --gtest_filter='*Golden*', then look at tests/golden/*.png before committing them.
 #include <gtest/gtest.h>
 
@@ -24,13 +24,13 @@ void PrintTo(const Shot& shot, std::ostream* out) {
 
 class Golden : public test::Studio, public ::testing::WithParamInterface<Shot> {};
 
-TEST_P(Golden, Picture) {
+TEST_P(Golden, Image) {
   const Shot& shot = GetParam();
   const auto scene = load_scene(shot.scene, shot.overrides);
   ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   const State state = shot.step > 0 ? test::after(model, shot.step) : initial_state(model, Precision::single);
-  PictureOptions options;
+  ImageOptions options;
   options.view = scene->view;
   options.view.camera =
       moved(scene->view.camera, Following(*scene, model, Precision::single).offset(model, state));
@@ -47,30 +47,30 @@ INSTANTIATE_TEST_SUITE_P(
         Shot{"jelly-in-net", 1000}, Shot{"knot", 6250}, Shot{"large-cube", 0}, Shot{"goal-net", 300},
         Shot{"penalty", 1080}, Shot{"cube-and-balls", 700}, Shot{"ball-pit", 4000}, Shot{"flag", 2400},
         Shot{"curtain", 1000}, Shot{"bridge", 700}, Shot{"swing", 900}, Shot{"jelly-figure", 1500},
-        Shot{"worm", 1100}, Shot{"walker", 2100}, Shot{"worm", 1100, {"view.colour=actuation"}, "actuation"},
+        Shot{"worm", 1100}, Shot{"walker", 2100}, Shot{"worm", 1100, {"view.color=actuation"}, "actuation"},
         Shot{"bridge",
              700,
-             {"view.colour=strain", "view.cut.inside=section", "view.cut.normal=[0.0, 0.0, 1.0]"},
+             {"view.color=strain", "view.cut.inside=section", "view.cut.normal=[0.0, 0.0, 1.0]"},
              "section-voxels"},
         Shot{"course-2021-plane", 1250}, Shot{"course-2021-tilted-plane", 1050},
         Shot{"course-2021-sphere", 900}, Shot{"course-2021-bowl", 1200}, Shot{"course-2018", 1080},
         Shot{"flag",
              2400,
-             {"view.colour=strain", "view.draw=[\"solid\", \"structural\", \"shear\"]"},
+             {"view.color=strain", "view.draw=[\"solid\", \"structural\", \"shear\"]"},
              "flag-strain"},
-        Shot{"cube-plane", 1500, {"view.colour=strain"}, "strain"},
+        Shot{"cube-plane", 1500, {"view.color=strain"}, "strain"},
         Shot{"cube-sphere",
              1050,
-             {"view.colour=strain", "view.cut.inside=section", "view.cut.normal=[0.2, 0.0, 1.0]",
+             {"view.color=strain", "view.cut.inside=section", "view.cut.normal=[0.2, 0.0, 1.0]",
               "view.camera={position=[5.0, 5.0, 9.0], target=[0.2, 2.4, 0.0], fov=45.0}", "view.follow=none"},
              "section"},
         Shot{"cube-sphere",
              1050,
-             {"view.colour=strain", "view.cut.inside=springs",
+             {"view.color=strain", "view.cut.inside=springs",
               "view.camera={position=[5.0, 5.0, 9.0], target=[0.2, 2.4, 0.0], fov=45.0}", "view.follow=none"},
              "section-springs"},
         Shot{"penalty", 1080, {"view.camera.projection=orthographic", "view.axes=true"}, "orthographic"},
-        Shot{"flag", 2250, {"view.colour=signed-strain", "view.scale.range=symmetric"}, "signed-strain"},
+        Shot{"flag", 2250, {"view.color=signed-strain", "view.scale.range=symmetric"}, "signed-strain"},
         // Without structural springs, on which bending springs lie: rounding decides which are in front. Few
         // particles, seen from where none covers another: what shows through a disc's rim is by rounding too.
         Shot{"cube-plane",

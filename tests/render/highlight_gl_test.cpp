@@ -20,15 +20,15 @@ class Highlight : public test::Studio {
     if (pinned) settings.cubes[0].pinned.names = {"top"};
     return test::build(settings);
   }
-  static PictureOptions plain() {
-    PictureOptions options;
+  static ImageOptions plain() {
+    ImageOptions options;
     options.view.camera.position = {4.0, 3.0, 13.0};
     options.view.camera.target = {};
     options.legend = false;
     return options;
   }
   /// The cube with and without marks.
-  void show(const Model& model, PictureOptions options, const HighlightOptions& marks) {
+  void show(const Model& model, ImageOptions options, const HighlightOptions& marks) {
     state_ = initial_state(model, Precision::single);
     without_ = draw(model, state_, options, width, height);
     options.highlight = marks;
@@ -109,11 +109,11 @@ TEST_F(Highlight, HiddenMarksAreFaint) {
 
 TEST_F(Highlight, PinnedParticlesAreMarkedWhereParticlesAreDrawn) {
   const Model model = lonely_cube(true);
-  PictureOptions options = plain();
+  ImageOptions options = plain();
   show(model, options, {});
   EXPECT_EQ(changed([](double, double) { return true; })[1], 0) << "solid alone shows none";
   options.view.draw = {.solid = false, .particles = true};
-  options.view.colour = ViewColour::speed;
+  options.view.color = ViewColor::speed;
   show(model, options, {.pinned = false});
   EXPECT_EQ(changed([](double, double) { return true; })[1], 0);
   show(model, options, {});
@@ -130,11 +130,11 @@ TEST_F(Highlight, PinnedParticlesAreMarkedWhereParticlesAreDrawn) {
   EXPECT_EQ(count[0], 0) << "the others bear none";
 }
 
-TEST_F(Highlight, GoesOverAPresentedPictureToo) {
+TEST_F(Highlight, GoesOverAPresentedImageToo) {
   const Model model = lonely_cube();
   const State state = initial_state(model, Precision::single);
-  const test::Image picture = draw(model, state, plain(), width, height);
-  // A window twice the picture's size that stores values as they are, with room around the view.
+  const test::Image image = draw(model, state, plain(), width, height);
+  // A window twice the image's size that stores values as they are, with room around the view.
   const int left = 10, bottom = 20, wide = 2 * width, high = 2 * height;
   GLuint texture = 0, framebuffer = 0;
   glGenTextures(1, &texture);
@@ -170,7 +170,7 @@ TEST_F(Highlight, GoesOverAPresentedPictureToo) {
   }
   EXPECT_GT(on_ring, 100);
   EXPECT_EQ(elsewhere, 0);
-  EXPECT_EQ(read(), picture.rgb) << "the picture itself bears no mark";
+  EXPECT_EQ(read(), image.rgb) << "the image itself bears no mark";
   glDeleteFramebuffers(1, &framebuffer);
   glDeleteTextures(1, &texture);
 }
@@ -178,7 +178,7 @@ TEST_F(Highlight, GoesOverAPresentedPictureToo) {
 TEST_F(Highlight, DegeneratePullsAreDrawn) {
   const Model model = lonely_cube();
   const State state = initial_state(model, Precision::single);
-  PictureOptions options = plain();
+  ImageOptions options = plain();
   const test::Image bare = draw(model, state, options, width, height);
   // To itself, to the eye, which shows nothing, and to behind it.
   const std::pair<Vec3, int> cases[] = {
@@ -200,12 +200,12 @@ TEST_F(Shadows, CanBeLeftOut) {
   ModelSettings settings = test::cube_on_plane(4, 1.5);
   TerrainSettings globe;
   globe.shape = TerrainShape::sphere;
-  globe.geometry["centre"] = Vec3{-7.0, 1.0, 0.0};
+  globe.geometry["center"] = Vec3{-7.0, 1.0, 0.0};
   globe.geometry["radius"] = 1.0;
   settings.terrain.push_back(globe);
   const Model model = test::build(settings);
   const State state = initial_state(model, Precision::single);
-  PictureOptions options;
+  ImageOptions options;
   options.legend = false;
   options.view.draw = {.solid = false};
   options.shadows = false;

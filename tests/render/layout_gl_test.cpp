@@ -44,7 +44,7 @@ TEST_F(RenderLayout, LightBoxesMatchTheDriver) {
   EXPECT_EQ(Reflection(*program).storage_block_binding("LightBoxes"), BINDING_LIGHT_BOXES_OUT);
   EXPECT_EQ(Reflection(*program).buffer_variable_offset("light_boxes[0].depth"),
             static_cast<int>(offsetof(render_layout::LightBox, depth)));
-  EXPECT_EQ(Reflection(*program).buffer_variable_top_level_stride("light_boxes[0].centre"),
+  EXPECT_EQ(Reflection(*program).buffer_variable_top_level_stride("light_boxes[0].center"),
             static_cast<int>(sizeof(render_layout::LightBox)));
   EXPECT_EQ(Reflection(*program).buffer_variable_offset("bounds[0].upper"),
             static_cast<int>(offsetof(render_layout::Bounds, upper)));

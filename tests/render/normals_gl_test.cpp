@@ -13,7 +13,7 @@ namespace {
 
 class Normals : public test::Studio {};
 
-/// One sum of at most four cross products in single precision, normalised: a few roundings of each component.
+/// One sum of at most four cross products in single precision, normalized: a few roundings of each component.
 constexpr double rounding = 16 * 0x1p-24;
 
 TEST_F(Normals, FacesOfAnUndeformedCubeAreFlatUpToTheirEdges) {
@@ -66,7 +66,7 @@ TEST_F(Normals, MeshFollowsTheCellsOfItsBody) {
   const std::vector<Vec3> places = skin_positions(skin.binding, skin.corners, state.position);
   const std::vector<Vec3> right = skin_normals(places, skin.triangles), found = renderer().normals();
   ASSERT_EQ(found.size(), right.size());
-  // Positions of 10 m have an error of 2⁻²¹ m on the device, edges are a tenth of a metre: a share of 5e-6,
+  // Positions of 10 m have an error of 2⁻²¹ m on the device, edges are a tenth of a meter: a share of 5e-6,
   // and a few of them where triangles around a vertex are thin.
   double worst = 0.0;
   for (std::size_t v = 0; v < found.size(); ++v) worst = std::max(worst, length(found[v] - right[v]));

@@ -1,4 +1,4 @@
-// Pictures that are drawn in parts, with other work between.
+// Images that are drawn in parts, with other work between.
 #include <gtest/gtest.h>
 
 #include "aspic/scene.h"
@@ -41,10 +41,10 @@ class Parts : public test::Studio, public ::testing::WithParamInterface<ClosestP
 
   Model model;
   State state;
-  PictureOptions options;
+  ImageOptions options;
 };
 
-TEST_P(Parts, MakeTheSamePictureWhateverIsDrawnBetweenThem) {
+TEST_P(Parts, MakeTheSameImageWhateverIsDrawnBetweenThem) {
   auto made = Renderer::create(context());
   ASSERT_TRUE(made.ok());
   Renderer& other = **made;
@@ -52,16 +52,16 @@ TEST_P(Parts, MakeTheSamePictureWhateverIsDrawnBetweenThem) {
   ASSERT_TRUE(other_scene.ok());
   const Model other_model = test::build(other_scene->model);
   ASSERT_TRUE(other.set_model(other_model).ok());
-  PictureOptions other_options;
+  ImageOptions other_options;
   other_options.view = other_scene->view;
   const auto other_state = other.upload(initial_state(other_model, Precision::single));
   ASSERT_TRUE(other_state.ok());
 
   ASSERT_TRUE(renderer().draw(width, height, uploaded(), options).ok());
   const std::vector<std::byte> whole = read();
-  PictureOptions coarse = options;
+  ImageOptions coarse = options;
   coarse.samples = 1;
-  // The first fine picture is drawn whole, the second from what is kept of the surroundings.
+  // The first fine image is drawn whole, the second from what is kept of the surroundings.
   for (int time = 0; time < 2; ++time) {
     if (time == 0) {
       ASSERT_TRUE(renderer().set_model(model).ok());
@@ -79,13 +79,13 @@ TEST_P(Parts, MakeTheSamePictureWhateverIsDrawnBetweenThem) {
       if (*finished) break;
       ASSERT_LT(parts, 1000);
       ASSERT_TRUE(other.draw(80, 50, *other_state, other_options).ok());
-      renderer().present(other.picture().id(), 40, 20);
+      renderer().present(other.image().id(), 40, 20);
     }
     EXPECT_EQ(read(), whole) << "time " << time;
   }
 }
 
-TEST_P(Parts, AreGivenUpForAnotherPicture) {
+TEST_P(Parts, AreGivenUpForAnotherImage) {
   ASSERT_TRUE(renderer().draw(width, height, uploaded(), options).ok());
   const std::vector<std::byte> whole = read();
   ASSERT_TRUE(renderer().begin(2 * width, height, uploaded(), options).ok());
@@ -99,11 +99,11 @@ TEST_P(Parts, AreGivenUpForAnotherPicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Pictures, Parts,
+    Images, Parts,
     ::testing::Values(
         ClosestPoint{"cube-plane", 1300}, ClosestPoint{"cube-bowl", 1200}, ClosestPoint{"goal-net", 250},
         ClosestPoint{"flag", 200}, ClosestPoint{"ball-pit", 500},
-        ClosestPoint{"cube-plane", 1300, {"view.colour=strain", "view.scale.range=automatic"}},
+        ClosestPoint{"cube-plane", 1300, {"view.color=strain", "view.scale.range=automatic"}},
         ClosestPoint{
             "cube-sphere", 900, {"view.cut.inside=springs", "view.ground=0.0", "view.arrows=[\"contacts\"]"}},
         ClosestPoint{

@@ -1,4 +1,4 @@
-// What is picked is what the picture shows under the cursor.
+// What is picked is what the image shows under the cursor.
 #include <glad/gl.h>
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ class Pick : public test::Studio {
  protected:
   static constexpr int width = 320, height = 240;
 
-  static PictureOptions from(const Vec3& position, const Vec3& target = {}) {
-    PictureOptions options;
+  static ImageOptions from(const Vec3& position, const Vec3& target = {}) {
+    ImageOptions options;
     options.view.camera.position = position;
     options.view.camera.target = target;
     options.legend = false;
@@ -29,12 +29,12 @@ class Pick : public test::Studio {
     settings.terrain.clear();
     return settings;
   }
-  void show(const Model& model, const PictureOptions& options) {
+  void show(const Model& model, const ImageOptions& options) {
     shown_ = initial_state(model, Precision::single);
     (void)draw(model, shown_, options, width, height);
     camera_.emplace(options.view.camera, width, height);
   }
-  /// What lies under a place of the picture, waited for.
+  /// What lies under a place of the image, waited for.
   std::optional<Picked> at(double x, double y) {
     const auto number = renderer().request_pick({x, y, width, height});
     if (!number) {
@@ -63,7 +63,7 @@ TEST_F(Pick, SkinStandsForItsNearestParticle) {
   const int n = 5;
   const Model model = test::build(lonely_cube(n));
   show(model, from({0.0, 0.0, 14.0}));
-  // The face z = 2, whose particles are a metre apart.
+  // The face z = 2, whose particles are a meter apart.
   for (const double x : {-1.9, -1.3, -0.4, 0.2, 0.9, 1.7}) {
     for (const double y : {-1.8, -0.7, 0.1, 0.6, 1.4}) {
       const auto picked = at(Vec3{x, y, 2.0});
@@ -73,7 +73,7 @@ TEST_F(Pick, SkinStandsForItsNearestParticle) {
                  j = static_cast<std::uint32_t>(std::lround(y + 2.0));
       EXPECT_EQ(picked->index, (i * n + j) * n + (n - 1)) << x << ", " << y;
       // Half a pixel to each side of where the sight line was asked for, and single precision.
-      const double pixel = 1.0 / test::pixels_per_metre(camera(), 12.0);
+      const double pixel = 1.0 / test::pixels_per_meter(camera(), 12.0);
       EXPECT_NEAR(length(picked->point - Vec3{x, y, 2.0}), 0.0, 0.75 * pixel);
       EXPECT_NEAR(picked->distance, 12.0, 1e-4);
     }
@@ -88,10 +88,10 @@ TEST_F(Pick, ParticlesAreMeantFromNearAndTheFrontOnesFirst) {
   for (const DrawSettings& draw :
        {DrawSettings{.solid = false, .particles = true}, DrawSettings{.solid = false, .structural = true},
         DrawSettings{.solid = false, .shear = true}}) {
-    PictureOptions options = from({2.0, 3.0, 14.0});
+    ImageOptions options = from({2.0, 3.0, 14.0});
     options.view.draw = draw;
     show(model, options);
-    // In metres: a ball's where balls are drawn, at least three pixels.
+    // In meters: a ball's where balls are drawn, at least three pixels.
     const double drawn = draw.particles ? particle_radius(2.0) : 0.0;
     int checked = 0;
     for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
@@ -103,7 +103,7 @@ TEST_F(Pick, ParticlesAreMeantFromNearAndTheFrontOnesFirst) {
       for (std::uint32_t k = 0; k < model.particle_count(); ++k) {
         const auto other = test::project(camera(), shown().position[k]);
         const double off = std::hypot(other->x - place->x, other->y - place->y);
-        const double radius = std::max(3.0, drawn * test::pixels_per_metre(camera(), other->distance));
+        const double radius = std::max(3.0, drawn * test::pixels_per_meter(camera(), other->distance));
         on_outline = on_outline || std::abs(off - radius) < 1.5;
         if (off < radius && other->distance < test::project(camera(), shown().position[expected])->distance)
           expected = k;
@@ -116,12 +116,12 @@ TEST_F(Pick, ParticlesAreMeantFromNearAndTheFrontOnesFirst) {
       ++checked;
     }
     EXPECT_GE(checked, 18);
-    // Nearer to one of two neighbours.
+    // Nearer to one of two neighbors.
     const std::uint32_t corner = (0 * n + 2) * n + 2;
     EXPECT_EQ(at(shown().position[corner], -8.0, -4.0)->index, corner);
     EXPECT_FALSE(at(shown().position[corner], -30.0, -30.0));
   }
-  PictureOptions nothing = from({0.0, 0.0, 14.0});
+  ImageOptions nothing = from({0.0, 0.0, 14.0});
   nothing.view.draw = {.solid = false};
   show(model, nothing);
   EXPECT_FALSE(at(Vec3{0.0, 0.0, 2.0})) << "what is not drawn is not picked";
@@ -158,8 +158,8 @@ TEST_F(Pick, BallsAndTerrainAreMetWhereTheSightLineMeetsThem) {
   settings.terrain.push_back({});
   TerrainSettings globe;
   globe.shape = TerrainShape::sphere;
-  const Vec3 centre = {-4.0, 0.0, 0.0};
-  globe.geometry["centre"] = centre;
+  const Vec3 center = {-4.0, 0.0, 0.0};
+  globe.geometry["center"] = center;
   globe.geometry["radius"] = 1.5;
   settings.terrain.push_back(globe);
   BallSettings ball;
@@ -174,12 +174,12 @@ TEST_F(Pick, BallsAndTerrainAreMetWhereTheSightLineMeetsThem) {
   EXPECT_EQ(of_ball->index, 0u);
   // Single precision at this distance.
   EXPECT_NEAR(length(of_ball->point - ball.position), 1.0, 1e-4);
-  const auto of_globe = at(centre);
+  const auto of_globe = at(center);
   ASSERT_TRUE(of_globe);
   EXPECT_EQ(of_globe->kind, PickKind::terrain);
   EXPECT_EQ(of_globe->index, 1u);
   EXPECT_NEAR(signed_distance(model.terrain[1], of_globe->point), 0.0, 1e-4);
-  EXPECT_LT(length(of_globe->point - Vec3{0.0, 3.0, 14.0}), length(centre - Vec3{0.0, 3.0, 14.0}));
+  EXPECT_LT(length(of_globe->point - Vec3{0.0, 3.0, 14.0}), length(center - Vec3{0.0, 3.0, 14.0}));
   const Vec3 place = {0.5, -1.0, 3.0};
   const auto of_ground = at(place);
   ASSERT_TRUE(of_ground);
@@ -188,14 +188,14 @@ TEST_F(Pick, BallsAndTerrainAreMetWhereTheSightLineMeetsThem) {
   EXPECT_NEAR(signed_distance(model.terrain[0], of_ground->point), 0.0, 1e-4);
   // A pixel covers the more of the ground the lower the sight line.
   const double pixel =
-      1.0 / test::pixels_per_metre(camera(), of_ground->distance) / (4.0 / length(place - Vec3{0, 3, 14}));
+      1.0 / test::pixels_per_meter(camera(), of_ground->distance) / (4.0 / length(place - Vec3{0, 3, 14}));
   EXPECT_NEAR(length(of_ground->point - place), 0.0, 0.75 * pixel);
   EXPECT_FALSE(at(160.0, 2.0)) << "the sky";
-  PictureOptions bare = from({0.0, 3.0, 14.0}, {0.0, 1.0, 0.0});
+  ImageOptions bare = from({0.0, 3.0, 14.0}, {0.0, 1.0, 0.0});
   bare.view.terrain = false;
   show(model, bare);
   EXPECT_TRUE(at(ball.position));
-  EXPECT_FALSE(at(centre)) << "terrain that is not drawn";
+  EXPECT_FALSE(at(center)) << "terrain that is not drawn";
 }
 
 TEST_F(Pick, GroundHidesWhatLiesBelowItAndWaitingBallsAreNotThere) {
@@ -216,7 +216,7 @@ TEST_F(Pick, GroundHidesWhatLiesBelowItAndWaitingBallsAreNotThere) {
 TEST_F(Pick, BowlsAreSeenThrough) {
   ModelSettings settings = test::cube_on_plane(3, 0.0);
   settings.terrain[0].shape = TerrainShape::bowl;
-  settings.terrain[0].geometry["centre"] = Vec3{};
+  settings.terrain[0].geometry["center"] = Vec3{};
   settings.terrain[0].geometry["radius"] = 5.0;
   const Model model = test::build(settings);
   show(model, from({0.0, 0.0, 16.0}));
@@ -233,7 +233,7 @@ TEST_F(Pick, NetsArePickedByTheirKnots) {
   net.particles = {4, 5, 6};
   settings.goal_nets.push_back(net);
   const Model model = test::build(settings);
-  PictureOptions options = from({9.0, 3.0, 7.0}, {0.0, 0.6, 0.0});
+  ImageOptions options = from({9.0, 3.0, 7.0}, {0.0, 0.6, 0.0});
   for (const bool solid : {true, false}) {
     options.view.draw = {.solid = solid, .structural = !solid};
     show(model, options);
@@ -253,7 +253,7 @@ TEST_F(Pick, NetsArePickedByTheirKnots) {
   }
 }
 
-TEST_F(Pick, ViewsOfOtherSizesShowTheSamePicture) {
+TEST_F(Pick, ViewsOfOtherSizesShowTheSameImage) {
   const Model model = test::build(lonely_cube(5));
   show(model, from({0.0, 0.0, 14.0}));
   const auto small = at(Vec3{-0.9, 1.1, 2.0});
@@ -263,7 +263,7 @@ TEST_F(Pick, ViewsOfOtherSizesShowTheSamePicture) {
   const auto large = renderer().picked().what;
   ASSERT_TRUE(small && large);
   EXPECT_EQ(large->index, small->index);
-  const double pixel = 0.25 / test::pixels_per_metre(camera(), 12.0);
+  const double pixel = 0.25 / test::pixels_per_meter(camera(), 12.0);
   EXPECT_NEAR(length(large->point - Vec3{-0.9, 1.1, 2.0}), 0.0, 0.75 * pixel);
 }
 
@@ -289,9 +289,9 @@ TEST_F(Pick, AnswersComeInOrderAndOnlyTheLastPlaceCounts) {
   EXPECT_FALSE(renderer().picked().what);
 }
 
-TEST_F(Pick, LeavesThePictureAsItWas) {
+TEST_F(Pick, LeavesTheImageAsItWas) {
   const Model model = test::build(test::cube_on_plane(4, 2.0));
-  const PictureOptions options;
+  const ImageOptions options;
   const test::Image before = draw(model, initial_state(model, Precision::single), options, width, height);
   (void)at(160.0, 120.0);
   EXPECT_EQ(read(), before.rgb);

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a renderer, read back.
+// Images of a renderer, read back.
 #include <gtest/gtest.h>
 
 #include "gpu/pixel_ring.h"
@@ -8,19 +8,19 @@
 
 namespace aspic::test {
 
-/// The picture that a renderer drew last.
+/// The image that a renderer drew last.
 inline std::vector<std::byte> read(gl::Context& context, const Renderer& by) {
-  const gl::Framebuffer& picture = by.picture();
-  auto ring = gl::PixelRing::create(context, picture.width(), picture.height());
+  const gl::Framebuffer& image = by.image();
+  auto ring = gl::PixelRing::create(context, image.width(), image.height());
   EXPECT_TRUE(ring.ok());
-  ring->submit(picture);
+  ring->submit(image);
   std::vector<std::byte> rgb;
   EXPECT_TRUE(ring->take(rgb).ok());
   return rgb;
 }
 
 /// A state of the renderer's model, drawn and read back.
-inline Image draw(gl::Context& context, Renderer& renderer, const State& state, const PictureOptions& options,
+inline Image draw(gl::Context& context, Renderer& renderer, const State& state, const ImageOptions& options,
                   int width, int height) {
   const auto uploaded = renderer.upload(state);
   EXPECT_TRUE(uploaded.ok());

@@ -7,16 +7,16 @@
 namespace aspic::test {
 namespace {
 
-/// A rasteriser that takes so long for a picture: a fixed part, and one by pixels [s].
+/// A rasterizer that takes so long for an image: a fixed part, and one by pixels [s].
 struct Machine {
   double fixed, full;
   double time(double share) const { return fixed + full * share * share; }
 };
 
-/// Draws pictures until the choice settles; returns the longest one.
-double draw(Resolution& r, const Machine& machine, int pictures = 40) {
+/// Draws images until the choice settles; returns the longest one.
+double draw(Resolution& r, const Machine& machine, int images = 40) {
   double longest = 0.0;
-  for (int i = 0; i < pictures; ++i) {
+  for (int i = 0; i < images; ++i) {
     const double share = r.share(), t = machine.time(share);
     longest = std::max(longest, t);
     r.took(share, t);
@@ -31,7 +31,7 @@ TEST(Resolution, AQuickMachineDrawsInFull) {
   EXPECT_EQ(r.share(), 1.0);
 }
 
-TEST(Resolution, ALargeSceneBeginsCoarselyAndNoPictureTakesTooLong) {
+TEST(Resolution, ALargeSceneBeginsCoarselyAndNoImageTakesTooLong) {
   for (const double fixed : {0.0, 0.01, 0.03}) {
     for (const double full : {0.02, 0.1, 0.3, 0.5}) {
       Resolution r;
@@ -57,7 +57,7 @@ TEST(Resolution, DoesNotSwing) {
   }
 }
 
-TEST(Resolution, OneSlowPictureIsNoReason) {
+TEST(Resolution, OneSlowImageIsNoReason) {
   Resolution r;
   r.reset(false);
   const Machine quick = {0.004, 0.03};

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "render/colour_map.h"
+#include "render/color_map.h"
 #include "render/studio.h"
 #include "support/projection.h"
 
@@ -22,20 +22,20 @@ class Cut : public test::Studio {
     return test::build(settings);
   }
   /// From the front along −z, on black; cut at z = `offset`.
-  static PictureOptions from_front(double offset) {
-    PictureOptions options;
+  static ImageOptions from_front(double offset) {
+    ImageOptions options;
     options.view.camera.position = {0.0, 0.0, 16.0};
     options.view.camera.target = {0.0, 0.0, 0.0};
     options.view.cut = {CutInside::section, {0.0, 0.0, 1.0}, offset};
-    options.view.colour = ViewColour::speed;
+    options.view.color = ViewColor::speed;
     options.view.scale.from = 0.0;
     options.view.scale.to = 4.0;
-    options.background = Colour{0.0f, 0.0f, 0.0f};
+    options.background = Color{0.0f, 0.0f, 0.0f};
     options.legend = false;
     options.samples = 1;
     return options;
   }
-  static Camera camera_of(const PictureOptions& options) { return {options.view.camera, width, height}; }
+  static Camera camera_of(const ImageOptions& options) { return {options.view.camera, width, height}; }
   static int lit_pixels(const test::Image& image) {
     int lit = 0;
     for (int y = 0; y < height; ++y)
@@ -62,11 +62,11 @@ TEST_F(Cut, SectionIsAsLargeAsTheBodyIsThere) {
       State state = initial_state(model, Precision::single);
       for (Vec3& x : state.position) x.x += shear * x.y;
       for (const double offset : {-1.3, 0.0, 0.7}) {
-        const PictureOptions options = from_front(offset);
+        const ImageOptions options = from_front(offset);
         const test::Image image = draw(model, state, options, width, height);
-        const double scale = test::pixels_per_metre(camera_of(options), 16.0 - offset);
+        const double scale = test::pixels_per_meter(camera_of(options), 16.0 - offset);
         const double side = 4.0 * scale;
-        // A pixel counts where its centre is inside: along the outline half of them are off by less than one.
+        // A pixel counts where its center is inside: along the outline half of them are off by less than one.
         EXPECT_NEAR(lit_pixels(image), side * side, 0.5 * 4.0 * std::hypot(1.0, shear) * side)
             << n << " at " << offset;
       }
@@ -81,8 +81,8 @@ TEST_F(Cut, SectionOfABoxIsAsLargeAsTheBoxIsThere) {
   const Model model = test::build(settings);
   const State state = initial_state(model, Precision::single);
   for (const double offset : {-1.3, 0.0, 0.7}) {
-    const PictureOptions options = from_front(offset);
-    const double scale = test::pixels_per_metre(camera_of(options), 16.0 - offset);
+    const ImageOptions options = from_front(offset);
+    const double scale = test::pixels_per_meter(camera_of(options), 16.0 - offset);
     const double width_seen = 2.0 * scale, height_seen = 1.0 * scale;
     EXPECT_NEAR(lit_pixels(draw(model, state, options, width, height)), width_seen * height_seen,
                 0.5 * 2.0 * (width_seen + height_seen))
@@ -90,22 +90,22 @@ TEST_F(Cut, SectionOfABoxIsAsLargeAsTheBoxIsThere) {
   }
 }
 
-TEST_F(Cut, SectionHasTheLegendsColours) {
+TEST_F(Cut, SectionHasTheLegendsColors) {
   const Model model = lonely_cube(5);
   State state = initial_state(model, Precision::single);
-  // Evenly varying speed: between particles the section has what lies between their colours' values.
+  // Evenly varying speed: between particles the section has what lies between their colors' values.
   for (std::size_t i = 0; i < state.velocity.size(); ++i)
     state.velocity[i] = {0.0, 2.0 + 0.5 * state.position[i].x + 0.25 * state.position[i].z, 0.0};
-  const PictureOptions options = from_front(0.3);
+  const ImageOptions options = from_front(0.3);
   const test::Image image = draw(model, state, options, width, height);
-  const std::vector<std::byte> texels = colour_map_texels(chosen_map(options.view));
+  const std::vector<std::byte> texels = color_map_texels(chosen_map(options.view));
   for (const double x : {-1.5, -0.5, 0.5, 1.5}) {
     for (const double y : {-1.5, 0.5}) {
       const auto at = test::project(camera_of(options), {x, y, 0.3});
       const double value = (2.0 + 0.5 * x + 0.25 * 0.3) / 4.0;
       const auto texel = 4 * static_cast<std::size_t>(std::lround(255.0 * value));
       for (int c = 0; c < 3; ++c)
-        // A pixel is a sixtieth of the cube wide, so four of the scale's 256 colours.
+        // A pixel is a sixtieth of the cube wide, so four of the scale's 256 colors.
         EXPECT_NEAR(image.channel(static_cast<int>(at->x), static_cast<int>(at->y), c),
                     std::to_integer<int>(texels[texel + static_cast<std::size_t>(c)]), 6)
             << x << ' ' << y << ' ' << c;
@@ -117,8 +117,8 @@ TEST_F(Cut, BesideTheBodyItTakesAllOrNothing) {
   const Model model = lonely_cube(4);
   const State state = initial_state(model, Precision::single);
   for (const bool springs : {false, true}) {
-    PictureOptions options = from_front(0.0);
-    options.view.colour = ViewColour::material;
+    ImageOptions options = from_front(0.0);
+    options.view.color = ViewColor::material;
     if (springs) options.view.draw = {.solid = true, .particles = true, .structural = true, .bending = true};
     options.view.cut.inside = CutInside::off;
     const test::Image whole = draw(model, state, options, width, height);
@@ -137,8 +137,8 @@ TEST_F(Cut, BesideTheBodyItTakesAllOrNothing) {
 TEST_F(Cut, SpringsStandOneSpacingDeepBeforeTheSection) {
   const Model model = lonely_cube(5);
   const State state = initial_state(model, Precision::single);
-  PictureOptions options = from_front(0.0);
-  options.view.colour = ViewColour::type;
+  ImageOptions options = from_front(0.0);
+  options.view.color = ViewColor::type;
   options.view.draw.solid = false;
   options.view.cut.inside = CutInside::springs;
   const Camera camera = camera_of(options);
@@ -152,15 +152,15 @@ TEST_F(Cut, SpringsStandOneSpacingDeepBeforeTheSection) {
   EXPECT_GT(green_of(on_spring, 2), green_of(on_spring, 0) + 60);
   EXPECT_LT(std::abs(green_of(on_ground, 2) - green_of(on_ground, 0)), 40);
   EXPECT_GT(green_of(on_ground, 1), 0);
-  // Nothing of the springs is left before the plane: the picture is as wide as the section and what ends
+  // Nothing of the springs is left before the plane: the image is as wide as the section and what ends
   // there.
-  EXPECT_LT(lit_pixels(image), std::pow(4.3 * test::pixels_per_metre(camera, 16.0), 2));
+  EXPECT_LT(lit_pixels(image), std::pow(4.3 * test::pixels_per_meter(camera, 16.0), 2));
 }
 
 TEST_F(Cut, ParticlesOfTheSectionArePickedAndThoseCutAwayAreNot) {
   const Model model = lonely_cube(5);
   const State state = initial_state(model, Precision::single);
-  const PictureOptions options = from_front(0.1);
+  const ImageOptions options = from_front(0.1);
   (void)draw(model, state, options, width, height);
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
     const Vec3& x = state.position[i];
@@ -172,7 +172,7 @@ TEST_F(Cut, ParticlesOfTheSectionArePickedAndThoseCutAwayAreNot) {
     EXPECT_NEAR(what->distance, 15.9, 1e-3);
   }
   // Seen from above, the front edge is gone.
-  PictureOptions above = options;
+  ImageOptions above = options;
   above.view.camera.position = {0.0, 16.0, 0.01};
   (void)draw(model, state, above, width, height);
   EXPECT_FALSE(picked_at(camera_of(above), {0.0, 2.0, 1.5}).has_value());
@@ -185,7 +185,7 @@ TEST_F(Orthographic, PicksTheSameParticlesAsPerspective) {
   const Model model = lonely_cube(6);
   const State state = initial_state(model, Precision::single);
   for (const bool solid : {true, false}) {
-    PictureOptions options = from_front(0.0);
+    ImageOptions options = from_front(0.0);
     options.view.cut.inside = CutInside::off;
     options.view.draw = {.solid = solid, .particles = !solid};
     options.view.camera.position = {6.0, 7.0, 12.0};
@@ -199,7 +199,7 @@ TEST_F(Orthographic, PicksTheSameParticlesAsPerspective) {
       ASSERT_TRUE(what && what->kind == PickKind::particle) << solid << ' ' << i;
       EXPECT_EQ(what->index, i);
       // On the skin at the pixel's middle, or within a pixel of the particle.
-      EXPECT_LT(length(what->point - x), 2.0 / test::pixels_per_metre(camera, 1.0));
+      EXPECT_LT(length(what->point - x), 2.0 / test::pixels_per_meter(camera, 1.0));
     }
   }
 }
@@ -207,11 +207,11 @@ TEST_F(Orthographic, PicksTheSameParticlesAsPerspective) {
 TEST_F(Orthographic, TheNearAndTheFarFaceAreAsLarge) {
   const Model model = lonely_cube(4);
   const State state = initial_state(model, Precision::single);
-  PictureOptions options = from_front(0.0);
+  ImageOptions options = from_front(0.0);
   options.view.camera.projection = Projection::orthographic;
   for (const double distance : {16.0, 12.0, 9.0}) {  // what zooming changes
     options.view.camera.position = {0.0, 0.0, distance};
-    const double side = 4.0 * test::pixels_per_metre(camera_of(options), 1.0);
+    const double side = 4.0 * test::pixels_per_meter(camera_of(options), 1.0);
     for (const CutInside inside : {CutInside::off, CutInside::section}) {
       options.view.cut.inside = inside;
       EXPECT_NEAR(lit_pixels(draw(model, state, options, width, height)), side * side, 2.0 * side);
@@ -224,17 +224,17 @@ TEST_F(Orthographic, BallsAndTerrainArePickedWhereTheyAre) {
   settings.terrain.emplace_back();
   settings.balls.push_back({.radius = 0.5, .position = {1.0, 2.0, 0.5}});
   const Model model = test::build(settings);
-  PictureOptions options;
+  ImageOptions options;
   options.view.camera.projection = Projection::orthographic;
   (void)draw(model, initial_state(model, Precision::single), options, width, height);
   const Camera camera = camera_of(options);
   const auto ball = picked_at(camera, {1.0, 2.0, 0.5});
   ASSERT_TRUE(ball && ball->kind == PickKind::ball);
-  EXPECT_NEAR(length(ball->point - Vec3{1.0, 2.0, 0.5}), 0.5, 2.0 / test::pixels_per_metre(camera, 1.0));
+  EXPECT_NEAR(length(ball->point - Vec3{1.0, 2.0, 0.5}), 0.5, 2.0 / test::pixels_per_meter(camera, 1.0));
   const Vec3 spot = {-2.0, -1.0, 1.0};
   const auto ground = picked_at(camera, spot);
   ASSERT_TRUE(ground && ground->kind == PickKind::terrain);
-  EXPECT_LT(length(ground->point - spot), 3.0 / test::pixels_per_metre(camera, 1.0));
+  EXPECT_LT(length(ground->point - spot), 3.0 / test::pixels_per_meter(camera, 1.0));
 }
 
 }  // namespace

@@ -22,14 +22,14 @@ class Studio : public testing::GlTest {
   Renderer& renderer() { return *renderer_; }
 
   /// Draws a state and reads it back.
-  Image draw(const Model& model, const State& state, const PictureOptions& options, int width = 640,
+  Image draw(const Model& model, const State& state, const ImageOptions& options, int width = 640,
              int height = 360) {
     const Status taken = renderer_->set_model(model);
     EXPECT_TRUE(taken.ok());
     return test::draw(context(), *renderer_, state, options, width, height);
   }
 
-  /// The picture last drawn.
+  /// The image last drawn.
   std::vector<std::byte> read() { return read(*renderer_); }
   std::vector<std::byte> read(const Renderer& by) { return test::read(context(), by); }
 

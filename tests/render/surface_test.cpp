@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "render/software_rasteriser.h"
+#include "render/software_rasterizer.h"
 #include "render/terrain_mesh.h"
 #include "support/lattice_bodies.h"
 #include "support/model_building.h"
@@ -152,7 +152,7 @@ TEST(TerrainMesh, GroundRepeatsWithoutASeam) {
   const auto red = [&](int row, int column) {
     return std::to_integer<int>(texels[4 * static_cast<std::size_t>(row * size + column)]);
   };
-  // A joint runs along both edges: its two sides differ by no more than neighbouring tiles' shades do.
+  // A joint runs along both edges: its two sides differ by no more than neighboring tiles' shades do.
   for (int i = 0; i < size; ++i) {
     EXPECT_NEAR(red(i, 0), red(i, size - 1), 48);
     EXPECT_NEAR(red(0, i), red(size - 1, i), 48);

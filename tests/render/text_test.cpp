@@ -198,8 +198,7 @@ TEST(Font, ScalesWithItsHeight) {
 
 TEST(Text, LongLabelsTakeSeveralLines) {
   const std::vector<OverlayLine> lines = {
-      {"explicit Euler, h 0.001 s", "1.500 s", false, Colour{1.0f, 0.5f, 0.0f}},
-      {"diverged", "at 2 s", true}};
+      {"explicit Euler, h 0.001 s", "1.500 s", false, Color{1.0f, 0.5f, 0.0f}}, {"diverged", "at 2 s", true}};
   const auto letters = [](std::string_view text) { return static_cast<float>(text.size()); };
   EXPECT_EQ(fitted_lines(lines, 40.0f, letters), lines);
   const std::vector<OverlayLine> two = fitted_lines(lines, 16.0f, letters);

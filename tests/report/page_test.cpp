@@ -93,7 +93,7 @@ TEST(Numbers, AreShort) {
   EXPECT_EQ(rounded(123456.0, 3), "1.23·10⁵");
 }
 
-TEST(Page, IsOneFileWithItsPictures) {
+TEST(Page, IsOneFileWithItsImages) {
   Figure figure;
   figure.id = "f";
   figure.caption = "A `code` <caption>";

@@ -79,7 +79,7 @@ TEST(Study, FramedViewHoldsEveryParticle) {
   }
 }
 
-TEST(Trial, KeepsPicturesNearTheirTimesAndFiguresOfTheEnd) {
+TEST(Trial, KeepsImagesNearTheirTimesAndFiguresOfTheEnd) {
   const Study s = study();
   Model model = build_model(s.scene.model).value();
   const std::vector<double> times = {0.0, 0.01, 0.0237};
@@ -87,10 +87,10 @@ TEST(Trial, KeepsPicturesNearTheirTimesAndFiguresOfTheEnd) {
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(result->outcome, Outcome::ok);
   EXPECT_EQ(result->steps, 50u);
-  ASSERT_EQ(result->pictures.size(), 3u);
-  EXPECT_EQ(result->pictures[0].step, 0u);
-  EXPECT_EQ(result->pictures[1].step, 10u);
-  EXPECT_EQ(result->pictures[2].step, 24u);
+  ASSERT_EQ(result->images.size(), 3u);
+  EXPECT_EQ(result->images[0].step, 0u);
+  EXPECT_EQ(result->images[1].step, 10u);
+  EXPECT_EQ(result->images[2].step, 24u);
   EXPECT_EQ(result->samples.back().time, 0.05);
 }
 

@@ -181,8 +181,8 @@ class Page {
     joined_.clear();
   }
 
-  std::vector<Offence> take() {
-    std::ranges::stable_sort(found_, {}, &Offence::line);
+  std::vector<Offense> take() {
+    std::ranges::stable_sort(found_, {}, &Offense::line);
     return std::move(found_);
   }
 
@@ -203,7 +203,7 @@ class Page {
   }
 
   Readers readers_;
-  std::vector<Offence> found_;
+  std::vector<Offense> found_;
   std::map<std::string, int> outputs_;
   std::string joined_;
   int first_ = 0;
@@ -211,7 +211,7 @@ class Page {
 
 }  // namespace
 
-std::vector<Offence> lint_prose(std::string_view text, Readers readers) {
+std::vector<Offense> lint_prose(std::string_view text, Readers readers) {
   Page page(readers);
   std::istringstream lines{std::string(text)};
   bool fenced = false;
@@ -228,8 +228,8 @@ std::vector<Offence> lint_prose(std::string_view text, Readers readers) {
   return page.take();
 }
 
-std::vector<Offence> lint_strings(std::string_view code, bool python) {
-  std::vector<Offence> found;
+std::vector<Offense> lint_strings(std::string_view code, bool python) {
+  std::vector<Offense> found;
   for (const auto& [first, literal] : literals_of(code, python)) {
     static const std::regex escape(R"(\\n|\n)"), quote(R"(\\(.))");
     int line = first;

@@ -11,15 +11,15 @@ namespace aspic::testing {
 /// Readers of a page. Sentences of user pages have a limit.
 enum class Readers { users, developers };
 
-/// Offences of a Markdown page in the order of lines. Code, link targets and labels of the window (*Label*)
+/// Offenses of a Markdown page in the order of lines. Code, link targets and labels of the window (*Label*)
 /// are no prose. term: a word that misleads, with its replacement. opening: a sentence that begins with What,
 /// Of, Refused or So. length: a sentence of more than 30 words; symbols do not count. bracket: an unquoted [,
 /// ], { or } in a shell command. output: a name that two commands of the page write.
-std::vector<Offence> lint_prose(std::string_view page, Readers readers);
+std::vector<Offense> lint_prose(std::string_view page, Readers readers);
 
-/// Offences of the string literals with a space of a C++ or Python file, which users see as messages, help,
+/// Offenses of the string literals with a space of a C++ or Python file, which users see as messages, help,
 /// tooltips and docstrings. The rules are those of user pages, line by line.
-std::vector<Offence> lint_strings(std::string_view code, bool python = false);
+std::vector<Offense> lint_strings(std::string_view code, bool python = false);
 
 /// README.md, CONTRIBUTING.md and all pages of docs, as paths below `root`, with their readers: developers
 /// for the pages that docs/README.md lists under *Developers*.

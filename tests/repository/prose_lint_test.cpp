@@ -11,8 +11,8 @@ using ::testing::IsEmpty;
 
 std::vector<std::string> rules_broken(const std::string& page, Readers readers = Readers::users) {
   std::vector<std::string> rules;
-  for (const Offence& offence : lint_prose(page, readers))
-    rules.push_back(std::to_string(offence.line) + ": " + offence.rule);
+  for (const Offense& offense : lint_prose(page, readers))
+    rules.push_back(std::to_string(offense.line) + ": " + offense.rule);
   return rules;
 }
 
@@ -68,10 +68,10 @@ TEST(ProseLint, FindsOutputsOfTheSameName) {
       IsEmpty());
 }
 
-TEST(ProseLint, FindsOffencesInStringLiterals) {
+TEST(ProseLint, FindsOffensesInStringLiterals) {
   const auto lines_of = [](std::string_view code, bool python = false) {
     std::vector<int> lines;
-    for (const Offence& offence : lint_strings(code, python)) lines.push_back(offence.line);
+    for (const Offense& offense : lint_strings(code, python)) lines.push_back(offense.line);
     return lines;
   };
   const std::string long_one = repeated("word", 31);
@@ -92,8 +92,8 @@ TEST(ProseLint, StringLiteralsAreClean) {
     if (!python && !(path.starts_with("src/") && (file.extension() == ".cpp" || file.extension() == ".h")))
       continue;
     ++files;
-    for (const Offence& offence : lint_strings(contents(ASPIC_SOURCE_DIR / file), python))
-      ADD_FAILURE() << path << ":" << offence.line << ": " << offence.rule << " (" << offence.text << ")";
+    for (const Offense& offense : lint_strings(contents(ASPIC_SOURCE_DIR / file), python))
+      ADD_FAILURE() << path << ":" << offense.line << ": " << offense.rule << " (" << offense.text << ")";
   }
   EXPECT_GE(files, 500);
 }
@@ -102,9 +102,9 @@ TEST(ProseLint, PagesAreClean) {
   const auto pages = prose_pages(ASPIC_SOURCE_DIR);
   EXPECT_GE(pages.size(), 30u);
   for (const auto& [file, readers] : pages)
-    for (const Offence& offence : lint_prose(contents(ASPIC_SOURCE_DIR / file), readers))
-      ADD_FAILURE() << file.generic_string() << ":" << offence.line << ": " << offence.rule << " ("
-                    << offence.text << ")";
+    for (const Offense& offense : lint_prose(contents(ASPIC_SOURCE_DIR / file), readers))
+      ADD_FAILURE() << file.generic_string() << ":" << offense.line << ": " << offense.rule << " ("
+                    << offense.text << ")";
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ constexpr std::string_view written[] = {".ci",
                                         "shaders",
                                         "src",
                                         "tests"};
-/// Data, results of measurements, and the offences planted for this lint.
+/// Data, results of measurements, and the offenses planted for this lint.
 constexpr std::string_view left_out[] = {"tests/repository", "bench/results", "tests/data",
                                          "tests/fuzz/regressions"};
 /// Rooms that every program may use.
@@ -90,7 +90,7 @@ bool speaks_to_all(const fs::path& file) {
 class Line {
  public:
   Line(const fs::path& root, const fs::path& file, int number, const std::string& text,
-       std::vector<Offence>& found)
+       std::vector<Offense>& found)
       : root_(root), file_(file), number_(number), text_(text), found_(found) {}
 
   void outside() {
@@ -173,7 +173,7 @@ class Line {
   const fs::path& file_;
   int number_;
   const std::string& text_;
-  std::vector<Offence>& found_;
+  std::vector<Offense>& found_;
 };
 
 }  // namespace
@@ -184,8 +184,8 @@ std::string contents(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-std::vector<Offence> lint(const fs::path& root, const fs::path& file, std::string_view text) {
-  std::vector<Offence> found;
+std::vector<Offense> lint(const fs::path& root, const fs::path& file, std::string_view text) {
+  std::vector<Offense> found;
   std::istringstream lines{std::string(text)};
   int number = 0;
   for (std::string line; std::getline(lines, line);) {

@@ -9,13 +9,13 @@
 namespace aspic::testing {
 
 /// A line that breaks a rule.
-struct Offence {
+struct Offense {
   int line;          ///< from 1
   std::string rule;  ///< `outside`, `path`, `section`, `kind`, `option`, `link` or `anchor`
   std::string text;  ///< what points nowhere
 };
 
-/// Offences of one text in the order of lines. `file` is its path below `root`, the repository.
+/// Offenses of one text in the order of lines. `file` is its path below `root`, the repository.
 /// outside: a page that is not part of the repository, as a section or a file.
 /// path: `docs/PAGE.md` anywhere, or a path in backticks in a Markdown page, that does not exist.
 /// section: `docs/PAGE.md, section N` where that page has no heading `## N.`, `docs/PAGE.md, "H"` without H.
@@ -24,11 +24,11 @@ struct Offence {
 /// option: a string of a library room that names an option of the command line (`--x`), outside of the words
 /// of src/base/wording.cpp and of programs (`*_main.cpp`). link, anchor: a Markdown link to a file, or to a
 /// heading, that does not exist.
-std::vector<Offence> lint(const std::filesystem::path& root, const std::filesystem::path& file,
+std::vector<Offense> lint(const std::filesystem::path& root, const std::filesystem::path& file,
                           std::string_view text);
 
 /// Every text file of the repository that people write, as a path below `root`, in alphabetical order. Build
-/// directories, data, pictures and results of measurements are left out.
+/// directories, data, images and results of measurements are left out.
 std::vector<std::filesystem::path> written_files(const std::filesystem::path& root);
 
 /// Every file that git tracks below `root`, as a path below it; where git has no answer, as in an unpacked

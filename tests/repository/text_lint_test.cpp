@@ -16,12 +16,12 @@ const std::filesystem::path root = ASPIC_SOURCE_DIR;
 
 std::vector<std::string> rules_broken(const char* file, const std::string& text) {
   std::vector<std::string> rules;
-  for (const Offence& offence : lint(root, file, text))
-    rules.push_back(std::to_string(offence.line) + ": " + offence.rule);
+  for (const Offense& offense : lint(root, file, text))
+    rules.push_back(std::to_string(offense.line) + ": " + offense.rule);
   return rules;
 }
 
-TEST(TextLint, FindsEveryPlantedOffence) {
+TEST(TextLint, FindsEveryPlantedOffense) {
   EXPECT_THAT(
       rules_broken("src/x.h", "// Contact, spec §2.5.\n// none\n// see shared/page.md\n// (spec of balls)\n"),
       ::testing::ElementsAre("1: outside", "3: outside", "4: outside"));
@@ -59,9 +59,9 @@ TEST(TextLint, RepositoryIsClean) {
   const auto files = written_files(root);
   EXPECT_GE(files.size(), 400u);
   for (const auto& file : files) {
-    for (const Offence& offence : lint(root, file, contents(root / file)))
-      ADD_FAILURE() << file.generic_string() << ":" << offence.line << ": " << offence.rule << " ("
-                    << offence.text << ")";
+    for (const Offense& offense : lint(root, file, contents(root / file)))
+      ADD_FAILURE() << file.generic_string() << ":" << offense.line << ": " << offense.rule << " ("
+                    << offense.text << ")";
   }
 }
 
@@ -79,7 +79,7 @@ TEST(FileSizes, EveryTrackedFileIsSmall) {
   const auto files = tracked_files(root);
   EXPECT_GE(files.size(), 900u);
   EXPECT_THAT(too_large(root, files), ::testing::IsEmpty())
-      << "make it smaller: fewer pixels, fewer colours, or stronger compression";
+      << "make it smaller: fewer pixels, fewer colors, or stronger compression";
 }
 
 /// The room that implements a public header.

@@ -279,7 +279,7 @@ TEST(Backends, AnotherTimeStepKeepsTheTime) {
       EXPECT_EQ(solver.state()->step, step_at_same_time(700, 1.0, factor)) << backend.variant();
       ASSERT_EQ(*solver.advance(2), Advance{2});
       const State after = *solver.state();
-      // The plate moves at up to 1 m/s; where time jumped it was half a metre.
+      // The plate moves at up to 1 m/s; where time jumped it was half a meter.
       for (std::size_t i = 0; i < before.position.size(); ++i)
         ASSERT_LT(std::abs(after.position[i].y - before.position[i].y), 0.02) << backend.variant();
     }

@@ -239,19 +239,19 @@ TEST_F(SeveralGpuSolvers, ASolverMadeOnAThreadThatEndedIsUsedOnAnother) {
   EXPECT_EQ(hash_after(backend, steps), expected);
 }
 
-/// A renderer with the read-back of its pictures, in a context.
+/// A renderer with the read-back of its images, in a context.
 struct Painter {
   Painter(gl::Context& context, const Model& model) {
     renderer = test::value_of(Renderer::create(context));
     EXPECT_TRUE(renderer->set_model(model).ok());
     ring.emplace(test::value_of(gl::PixelRing::create(context, 64, 48)));
   }
-  std::vector<std::byte> picture(const State& state) {
+  std::vector<std::byte> image(const State& state) {
     const auto there = renderer->upload(state);
     EXPECT_TRUE(there.ok());
     const Status drawn = renderer->draw(64, 48, *there, {});
     EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message());
-    ring->submit(renderer->picture());
+    ring->submit(renderer->image());
     std::vector<std::byte> rgb;
     EXPECT_TRUE(ring->take(rgb).ok());
     return rgb;
@@ -260,23 +260,23 @@ struct Painter {
   std::optional<gl::PixelRing> ring;
 };
 
-TEST_F(SeveralGpuSolvers, PicturesInTwoContextsTakeTurnsAndGoInAnyOrder) {
+TEST_F(SeveralGpuSolvers, ImagesInTwoContextsTakeTurnsAndGoInAnyOrder) {
   const Model models[] = {test::build(cube(3)), test::build(cube(4, 3.0))};
   const State states[] = {initial_state(models[0], Precision::single),
                           initial_state(models[1], Precision::single)};
-  const std::vector<std::byte> alone[] = {Painter(context(), models[0]).picture(states[0]),
-                                          Painter(context(), models[1]).picture(states[1])};
+  const std::vector<std::byte> alone[] = {Painter(context(), models[0]).image(states[0]),
+                                          Painter(context(), models[1]).image(states[1])};
   EXPECT_NE(alone[0], alone[1]);
   for (const std::size_t goes_first : {0u, 1u}) {
     const std::shared_ptr<gl::Context> contexts[] = {another_context(), another_context()};
     std::optional<Painter> painters[2];
     for (std::size_t i = 0; i < 2; ++i) painters[i].emplace(*contexts[i], models[i]);
     for (int n = 0; n < 2; ++n)
-      for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(painters[i]->picture(states[i]), alone[i]);
+      for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(painters[i]->image(states[i]), alone[i]);
     const std::size_t stays = 1 - goes_first;
-    EXPECT_EQ(painters[stays]->picture(states[stays]), alone[stays]);
+    EXPECT_EQ(painters[stays]->image(states[stays]), alone[stays]);
     painters[goes_first].reset();
-    EXPECT_EQ(painters[stays]->picture(states[stays]), alone[stays]);
+    EXPECT_EQ(painters[stays]->image(states[stays]), alone[stays]);
   }
 }
 

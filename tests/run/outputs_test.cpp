@@ -139,8 +139,8 @@ TEST_F(Outputs, FilesOfLaterStepsAreFoundAtTheStart) {
   EXPECT_TRUE(first(0, Overwrite::allow).ok());
 }
 
-TEST(CheckPictures, RefusesWhatCannotBeCountedAndSaysWhatFits) {
-  PictureOutput output;
+TEST(CheckImages, RefusesWhatCannotBeCountedAndSaysWhatFits) {
+  ImageOutput output;
   output.frames = "z";
   output.fps = 60.0;
   output.speed = 1e-300;
@@ -167,18 +167,18 @@ TEST_F(Outputs, OneNameForTwoFilesIsRefused) {
   EXPECT_FALSE(open({{"state", dir_.file("x"), {}}, {"series", dir_.file("link"), {}}}).ok());
 }
 
-TEST(FilmFormats, AreFoundByNameAndEnding) {
-  for (const FilmFormat& format : film_formats()) {
-    EXPECT_EQ(find_film_format(format.name), &format);
-    EXPECT_EQ(find_film_format(format.ending), &format);
+TEST(VideoFormats, AreFoundByNameAndEnding) {
+  for (const VideoFormat& format : video_formats()) {
+    EXPECT_EQ(find_video_format(format.name), &format);
+    EXPECT_EQ(find_video_format(format.ending), &format);
     EXPECT_EQ(video_format_of(std::string("a").append(format.ending)).ok(), !format.is_directory());
-    EXPECT_FALSE(check_film(format, {64, 64}, 2.0 * format.most_fps).ok());
-    EXPECT_EQ(check_film(format, {63, 64}, 10.0).ok(), !format.even_sides);
+    EXPECT_FALSE(check_video(format, {64, 64}, 2.0 * format.most_fps).ok());
+    EXPECT_EQ(check_video(format, {63, 64}, 10.0).ok(), !format.even_sides);
   }
-  EXPECT_EQ(find_film_format("MP4"), find_film_format(".mp4"));
-  EXPECT_EQ(find_film_format(""), nullptr);
-  EXPECT_EQ(find_film_format("avi"), nullptr);
-  EXPECT_EQ(film_endings(false), ".mp4, .webm or .gif");
+  EXPECT_EQ(find_video_format("MP4"), find_video_format(".mp4"));
+  EXPECT_EQ(find_video_format(""), nullptr);
+  EXPECT_EQ(find_video_format("avi"), nullptr);
+  EXPECT_EQ(video_endings(false), ".mp4, .webm or .gif");
 }
 
 }  // namespace

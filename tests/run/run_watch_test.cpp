@@ -66,7 +66,7 @@ TEST(RunWatch, TellsOnceOfAPairThatIsTooDeep) {
   const auto shift = [&](std::uint32_t body, double by) {
     for (std::uint32_t i = 0; i < 125; ++i) state.position[125 * body + i].x += by;
   };
-  shift(0, 2.0);  // one metre below the surface of the second, D being 0.5 m
+  shift(0, 2.0);  // one meter below the surface of the second, D being 0.5 m
   state.step = 1200;
   const std::string text = words(watch.look(model, state, {}, false));
   EXPECT_THAT(text, HasSubstr("cube[0] and cube[1]"));

@@ -17,8 +17,8 @@ using ::testing::MatchesRegex;
 struct Start {
   std::string scene;
   std::vector<std::string> set;
-  int kernels, pictures;  ///< programs of the solver without the canary, and of a picture
-  std::size_t lines;      ///< of all shaders
+  int kernels, images;  ///< programs of the solver without the canary, and of an image
+  std::size_t lines;    ///< of all shaders
 };
 
 class StartUp : public aspic::testing::GlTest {};
@@ -52,12 +52,12 @@ TEST_F(StartUp, BeginsAllProgramsBeforeItWaitsAndCompilesFew) {
     ASSERT_TRUE((*renderer)->set_model(model).ok());
     EXPECT_EQ(calls.links(), of_solver);
     const std::size_t before = calls.order.size();
-    PictureOptions options;
+    ImageOptions options;
     options.view = scene.view;
     const Status drawn = (*renderer)->draw(64, 36, (*solver)->device_state(), options);
     ASSERT_TRUE(drawn.ok()) << drawn.error().message();
     EXPECT_THAT(calls.order.substr(before), MatchesRegex("L+\\?+"));
-    EXPECT_LE(calls.links() - of_solver, start.pictures);
+    EXPECT_LE(calls.links() - of_solver, start.images);
     EXPECT_LE(calls.lines(), start.lines + (canaries > 1 ? 1000 : 0));
 
     const auto compiled = calls.links();
@@ -70,7 +70,7 @@ TEST_F(StartUp, BeginsAllProgramsBeforeItWaitsAndCompilesFew) {
   }
 }
 
-TEST_F(StartUp, APictureNamesTheShaderThatIsRefusedUntilItIsMended) {
+TEST_F(StartUp, AnImageNamesTheShaderThatIsRefusedUntilItIsMended) {
   const test::TemporaryDirectory directory;
   std::filesystem::create_directory(directory.path() / "render");
   directory.write("render/sky.frag", "\nvoid main() { misspelt; }\n");
@@ -81,7 +81,7 @@ TEST_F(StartUp, APictureNamesTheShaderThatIsRefusedUntilItIsMended) {
   ASSERT_TRUE((*renderer)->set_model(model).ok());
   const auto state = (*renderer)->upload(initial_state(model, Precision::single));
   ASSERT_TRUE(state.ok());
-  PictureOptions options;
+  ImageOptions options;
   options.view = scene.view;
   const Status refused = (*renderer)->draw(64, 36, *state, options);
   ASSERT_FALSE(refused.ok());

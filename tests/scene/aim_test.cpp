@@ -27,7 +27,7 @@ std::string cube_text(double edge, double drop, const std::string& more = "") {
       edge, edge, (drop + 0.5) * edge, more);
 }
 
-/// Where places are in the picture: 1 is the upper, −1 the lower edge.
+/// Where places are in the image: 1 is the upper, −1 the lower edge.
 struct Shown {
   double low = 1e9, high = -1e9;
   void add(const CameraSettings& camera, const Vec3& x) {
@@ -49,7 +49,7 @@ Shown bodies_in(const Scene& scene) {
   return shown;
 }
 
-TEST(Aim, BodiesOfAnySizeFillHalfOfThePicture) {
+TEST(Aim, BodiesOfAnySizeFillHalfOfTheImage) {
   for (const double edge : {0.02, 0.25, 4.0, 50.0}) {
     const Scene scene = parsed(cube_text(edge, 0.1));
     const Shown shown = bodies_in(scene);

@@ -11,7 +11,7 @@ TEST(EditDistance, CountsTheFourEdits) {
   EXPECT_EQ(edit_distance("stifness", "stiffness"), 1u);    // insertion
   EXPECT_EQ(edit_distance("stiffnesss", "stiffness"), 1u);  // deletion
   EXPECT_EQ(edit_distance("stiffmess", "stiffness"), 1u);   // substitution
-  EXPECT_EQ(edit_distance("center", "centre"), 1u);         // swap of neighbours
+  EXPECT_EQ(edit_distance("cetner", "center"), 1u);         // swap of neighbors
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);        // Levenshtein's classical pair
   EXPECT_EQ(edit_distance("ca", "abc"), 3u);                // the restricted form edits no part twice
 }

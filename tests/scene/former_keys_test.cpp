@@ -32,6 +32,24 @@ TEST(FormerKeys, SetTheirSuccessors) {
       *with_overrides(test::parsed(start), std::vector<std::string>{"contact.epsilon=0.02"}), present);
 }
 
+TEST(FormerKeys, AcceptBritishSpellings) {
+  const Scene present = test::parsed(start +
+                                     "[view]\ncolor = \"strain\"\nscale.map = \"gray\"\n[[terrain]]\nshape = "
+                                     "\"bowl\"\ncenter = [1, 8, 1]\n");
+  const Scene former = test::parsed(start +
+                                    "[view]\ncolour = \"strain\"\nscale.map = \"grey\"\n[[terrain]]\nshape = "
+                                    "\"bowl\"\ncentre = [1, 8, 1]\n");
+  test::expect_same_scene(former, present);
+  test::expect_same_scene(
+      test::parsed(start + "[[terrain]]\nshape = \"bowl\"\n",
+                   {"view.colour=strain", "view.scale.map=grey", "terrain[0].centre=[1, 8, 1]"}),
+      present);
+  EXPECT_EQ(std::get<Vec3>(value_of(present, "terrain[0].centre").value().value()), (Vec3{1.0, 8.0, 1.0}));
+  EXPECT_THAT(
+      test::rejection(start + "[[terrain]]\nshape = \"bowl\"\ncenter = [1, 8, 1]\ncentre = [1, 8, 1]\n"),
+      HasSubstr("'centre' is the former name of terrain.center"));
+}
+
 TEST(FormerKeys, YieldToArguments) {
   expect_contact(test::parsed(start + "epsilon = 0.02\n", {"contact.distance=0.03"}), 0.03, 0.02);
   expect_contact(test::parsed(start + "epsilon = 0.02\n", {"contact.resting-speed=0.03"}), 0.02, 0.03);
@@ -41,9 +59,9 @@ TEST(FormerKeys, YieldToArguments) {
 
 TEST(FormerKeys, ExcludeTheirSuccessors) {
   constexpr const char* message =
-      "'contact.epsilon' is the former name of contact.distance and contact.resting-speed, and both are "
+      "'epsilon' is the former name of contact.distance and contact.resting-speed, and both are "
       "given; "
-      "remove 'contact.epsilon'";
+      "remove 'epsilon'";
   for (const char* line : {"distance = 0.02\n", "resting-speed = 0.02\n"}) {
     for (const std::string& keys :
          {line + std::string("epsilon = 0.02\n"), "epsilon = 0.02\n" + std::string(line)}) {

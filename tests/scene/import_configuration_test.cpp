@@ -48,7 +48,7 @@ TEST(Import, SaysWhatItDoesNotCarryAndPrintsAValidScene) {
   ASSERT_TRUE(imported.ok());
   const std::string text = imported_toml(*imported, "Configuration.txt");
   for (const auto& [line, key] : std::vector<std::pair<int, std::string>>{
-           {12, "DrawGoalpost"}, {16, "DrawBackground"}, {20, "SimulationStart"}, {51, "NetColour"}}) {
+           {12, "DrawGoalpost"}, {16, "DrawBackground"}, {20, "SimulationStart"}, {51, "NetColor"}}) {
     const std::string note = fmt::format("Configuration.txt:{}: *{} ", line, key);
     EXPECT_THAT(imported->notes, testing::Contains(HasSubstr(note)));
     EXPECT_THAT(text, HasSubstr("# Not translated: " + note));
@@ -133,7 +133,7 @@ TEST(Import, QuotesNoBytesThatAreNoText) {
   EXPECT_LT(stray.error().message().size(), 400u);
   // Comments may be in any encoding; values that end up in notes become valid text.
   const auto imported =
-      import_configuration("*StudentID # \xb1\n\xb1\x61\x1b\n*NetColour\n\xb2\x61\x1b\n", "c\n\xff");
+      import_configuration("*StudentID # \xb1\n\xb1\x61\x1b\n*NetColor\n\xb2\x61\x1b\n", "c\n\xff");
   ASSERT_TRUE(imported.ok());
   const std::string toml = imported_toml(*imported, "c\n\xff");
   EXPECT_EQ(imported->scene.author, "\\xb1a\\x1b");

@@ -77,7 +77,7 @@ TEST(Defaults, AreThoseOfTheFormat) {
   EXPECT_EQ(CameraSettings().target, (Vec3{0.0, 2.0, 0.0}));
   EXPECT_EQ(s.view.camera.fov, 45.0);
   EXPECT_EQ(s.view.draw, (DrawSettings{true, false, false, false, false}));
-  EXPECT_EQ(s.view.colour, ViewColour::material);
+  EXPECT_EQ(s.view.color, ViewColor::material);
 }
 
 TEST(Defaults, OfTerrainFollowItsShape) {
@@ -89,9 +89,9 @@ TEST(Defaults, OfTerrainFollowItsShape) {
   };
   EXPECT_EQ(std::get<Vec3>(*value("terrain[].point", 0)), (Vec3{0.0, 0.0, 0.0}));
   EXPECT_EQ(std::get<Vec3>(*value("terrain[].normal", 0)), (Vec3{1.0, 1.0, 0.0}));
-  EXPECT_EQ(std::get<Vec3>(*value("terrain[].centre", 1)), (Vec3{0.0, -1.0, 0.0}));
+  EXPECT_EQ(std::get<Vec3>(*value("terrain[].center", 1)), (Vec3{0.0, -1.0, 0.0}));
   EXPECT_EQ(std::get<double>(*value("terrain[].radius", 1)), 3.0);
-  EXPECT_EQ(std::get<Vec3>(*value("terrain[].centre", 2)), (Vec3{2.0, 7.0, 1.0}));
+  EXPECT_EQ(std::get<Vec3>(*value("terrain[].center", 2)), (Vec3{2.0, 7.0, 1.0}));
   EXPECT_EQ(std::get<double>(*value("terrain[].radius", 2)), 7.0);
   EXPECT_EQ(std::get<Vec3>(*value("terrain[].point", 3)), (Vec3{0.0, -1.0, 0.0}));
   EXPECT_FALSE(value("terrain[].radius", 0).has_value());
@@ -317,13 +317,13 @@ TEST(Load, TellsInputsFromAScene) {
 
 // What is wrong is shown as it was typed, after the words that its caller has for where it was.
 TEST(Load, NamesTheOptionThatAnArgumentIsOf) {
-  const std::vector<std::string> arguments = {"colour=stress"};
+  const std::vector<std::string> arguments = {"color=stress"};
   for (const std::string origin : {"", "--view"}) {
     const auto wrong = with_view(Scene{}, arguments, {.origin = origin});
     ASSERT_FALSE(wrong.ok());
     EXPECT_THAT(wrong.error().message(), HasSubstr("\n\n" + origin + (origin.empty() ? "" : " ") +
-                                                   "colour=stress: 'view.colour' has the unknown value"));
-    EXPECT_THAT(wrong.error().message(), testing::EndsWith("\n  colour=stress\n         ^"));
+                                                   "color=stress: 'view.color' has the unknown value"));
+    EXPECT_THAT(wrong.error().message(), testing::EndsWith("\n  color=stress\n        ^"));
   }
 }
 

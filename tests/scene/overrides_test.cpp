@@ -133,7 +133,7 @@ TEST(Set, RefusesWhatTheFileCouldNotSayEither) {
 TEST(Set, TakesTheFormsOfTheFormat) {
   const Scene s =
       test::parsed(base, {"simulation.timestep=0.002", "cube[0].shear.stiffness=10", "contact.model=course",
-                          "cube[0].pinned=[\"top\",3]", "terrain[0].normal=[0,1,0]", "view.colour=strain",
+                          "cube[0].pinned=[\"top\",3]", "terrain[0].normal=[0,1,0]", "view.color=strain",
                           "terrain[0].mass=10", "name=\"two words\""});
   EXPECT_EQ(s.model.simulation.timestep, 0.002);
   EXPECT_EQ(s.model.cubes[0].shear.stiffness, 10.0);
@@ -142,7 +142,7 @@ TEST(Set, TakesTheFormsOfTheFormat) {
   EXPECT_EQ(s.model.cubes[0].pinned.indices, std::vector<std::int64_t>{3});
   EXPECT_EQ(s.model.terrain[0].geometry.at("normal"), GeometryValue(Vec3{0.0, 1.0, 0.0}));
   EXPECT_EQ(s.model.terrain[0].mass, 10.0);
-  EXPECT_EQ(s.view.colour, ViewColour::strain);
+  EXPECT_EQ(s.view.color, ViewColor::strain);
   EXPECT_EQ(s.name, "two words");
 }
 

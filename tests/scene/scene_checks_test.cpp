@@ -137,7 +137,7 @@ TEST(CheckScene, FindsWhatOnlyTheWholeShows) {
   const auto complaints = check_scene(scene);
   EXPECT_THAT(paths_of(complaints),
               ElementsAre("terrain[0].normal", "launcher[0].towards", "view.camera.target"));
-  EXPECT_EQ(complaints[0].message, "a bowl has no 'normal'; its geometry is centre or radius");
+  EXPECT_EQ(complaints[0].message, "a bowl has no 'normal'; its geometry is center or radius");
 }
 
 TEST(CheckScene, FindsASceneInWhichNothingMoves) {

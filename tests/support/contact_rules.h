@@ -82,8 +82,8 @@ inline std::array<Model, 3> landings(ContactModel contact) {
   return {build(settings), build(farther), build(faster)};
 }
 
-/// The centre of the particles [m].
-inline Vec3 centre_of(const State& state) {
+/// The center of the particles [m].
+inline Vec3 center_of(const State& state) {
   Vec3 sum;
   for (const Vec3& x : state.position) sum = sum + x;
   return 1.0 / static_cast<double>(state.position.size()) * sum;
@@ -93,15 +93,15 @@ inline Vec3 centre_of(const State& state) {
 /// without friction it would slide 1.2 m in a second. `make(model)`: a solver.
 template <class Make>
 void expect_more_friction_to_hold(const Make& make) {
-  const auto centre_after = [&](const Model& model) {
+  const auto center_after = [&](const Model& model) {
     const std::unique_ptr<Solver> solver = make(model);
     EXPECT_FALSE((*solver->advance(60)).divergence.has_value());
-    return centre_of(*solver->state());
+    return center_of(*solver->state());
   };
-  const Vec3 alone = centre_after(cube_on_slope(std::array{0.5}));
-  EXPECT_LE(length(centre_after(cube_on_slope(std::array{0.0, 0.5})) - alone), 1e-3);
-  EXPECT_LE(length(centre_after(cube_on_slope(std::array{0.5, 0.0})) - alone), 1e-3);
-  EXPECT_LE(length(centre_after(cube_on_slope(std::array{0.1, 0.0, 0.5, 0.2})) - alone), 1e-3);
+  const Vec3 alone = center_after(cube_on_slope(std::array{0.5}));
+  EXPECT_LE(length(center_after(cube_on_slope(std::array{0.0, 0.5})) - alone), 1e-3);
+  EXPECT_LE(length(center_after(cube_on_slope(std::array{0.5, 0.0})) - alone), 1e-3);
+  EXPECT_LE(length(center_after(cube_on_slope(std::array{0.1, 0.0, 0.5, 0.2})) - alone), 1e-3);
 }
 
 }  // namespace aspic::test

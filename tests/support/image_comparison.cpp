@@ -15,11 +15,11 @@
 namespace aspic::test {
 namespace {
 
-/// Of 255: 1 for the rasteriser's rounding, 1 for that of golden files to even numbers.
+/// Of 255: 1 for the rasterizer's rounding, 1 for that of golden files to even numbers.
 constexpr double tolerance = 2.0;
 /// Of the contrast around a pixel: what one of four samples changes at most, a quarter of white in sRGB.
 constexpr double contrast_share = 137.0 / 255.0;
-/// What an edge may move [pixels of the golden picture]: a quarter of a drawn pixel, as far as samples are
+/// What an edge may move [pixels of the golden image]: a quarter of a drawn pixel, as far as samples are
 /// apart.
 constexpr double edge_shift = 1.0 / 8.0;
 constexpr int square = 8, stride = square / 2;
@@ -51,7 +51,7 @@ void write(const std::string& path, const Image& image) {
   ASSERT_TRUE(file.flush()) << path;
 }
 
-/// Mean of the four pixels of a drawn picture that become one of a golden one.
+/// Mean of the four pixels of a drawn image that become one of a golden one.
 double mean_of_four(const Image& image, int x, int y, int c) {
   return 0.25 * (image.channel(2 * x, 2 * y, c) + image.channel(2 * x + 1, 2 * y, c) +
                  image.channel(2 * x, 2 * y + 1, c) + image.channel(2 * x + 1, 2 * y + 1, c));
@@ -113,7 +113,7 @@ class Squares {
 
 }  // namespace
 
-Image read_picture(const std::string& path) {
+Image read_image(const std::string& path) {
   Image image;
   int channels = 0;
   stbi_uc* const bytes = stbi_load(path.c_str(), &image.width, &image.height, &channels, 3);
@@ -172,7 +172,7 @@ void expect_golden(const Image& image, const std::string& name) {
   const std::string golden_path = std::string(ASPIC_GOLDEN) + "/" + name + ".png";
   const std::string actual_path = std::string(ASPIC_GOLDEN_FAILURES) + "/" + name + ".png";
   const std::string difference_path = std::string(ASPIC_GOLDEN_FAILURES) + "/" + name + "-difference.png";
-  const Image golden = read_picture(golden_path);
+  const Image golden = read_image(golden_path);
   const bool there = 2 * golden.width == image.width && 2 * golden.height == image.height;
   Image difference;
   const auto found =
@@ -185,7 +185,7 @@ void expect_golden(const Image& image, const std::string& name) {
   }
   write(actual_path, image);
   if (there) write(difference_path, difference);
-  ADD_FAILURE() << golden_path << ": " << *found << "; the picture is " << actual_path
+  ADD_FAILURE() << golden_path << ": " << *found << "; the image is " << actual_path
                 << (there ? ", the difference " + difference_path : "")
                 << ". If the change is meant, run with ASPIC_UPDATE_GOLDEN=1.";
 }

@@ -8,7 +8,7 @@
 
 namespace aspic::test {
 
-/// The settings of a cube on the default plane: n per edge, edge 4 m, the default springs, centre at
+/// The settings of a cube on the default plane: n per edge, edge 4 m, the default springs, center at
 /// `height`.
 inline ModelSettings cube_on_plane(int particles_per_edge, double height = 9.0) {
   ModelSettings settings;

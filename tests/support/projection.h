@@ -9,7 +9,7 @@ namespace aspic::test {
 
 /// Where a point appears.
 struct Projected {
-  double x = 0.0, y = 0.0;  ///< [pixels] from the left and from the top; outside the picture is legal
+  double x = 0.0, y = 0.0;  ///< [pixels] from the left and from the top; outside the image is legal
   double distance = 0.0;    ///< along the camera's axis [m], > 0
 };
 
@@ -24,8 +24,8 @@ inline std::optional<Projected> project(const Camera& camera, const Vec3& point)
                    static_cast<double>(clip.w)};
 }
 
-/// How many pixels a metre is, square to the axis at that distance [pixels/m].
-inline double pixels_per_metre(const Camera& camera, double distance) {
+/// How many pixels a meter is, square to the axis at that distance [pixels/m].
+inline double pixels_per_meter(const Camera& camera, double distance) {
   return 0.5 * camera.height() * static_cast<double>(camera.projection()[1][1]) / distance;
 }
 

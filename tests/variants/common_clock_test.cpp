@@ -25,7 +25,7 @@ TEST(CommonClock, ShowsTheNearestStepOfEachRun) {
       EXPECT_LE(step, runs[run].last_step);
       before = step;
       const double off = static_cast<double>(step) * steps[run] - static_cast<double>(f) * speed / fps;
-      EXPECT_LE(std::abs(off), 0.5 * steps[run] * (1.0 + 1e-9)) << "run " << run << ", picture " << f;
+      EXPECT_LE(std::abs(off), 0.5 * steps[run] * (1.0 + 1e-9)) << "run " << run << ", image " << f;
     }
     EXPECT_EQ(before, runs[run].last_step);
   }

@@ -44,7 +44,7 @@ TEST(SweepRun, OneMotionHasOneKey) {
   Scene looks = scene;
   looks.name = "another";
   looks.author = "somebody";
-  looks.view.colour = ViewColour::strain;
+  looks.view.color = ViewColor::strain;
   looks.model.simulation.duration = 77.0;
   const std::string key = run_of(scene, {{"cube[0].velocity", "[1,0,0]"}, {"h", "0.001"}}).key;
   EXPECT_EQ(key.size(), 32u);

@@ -12,7 +12,7 @@ vec4 friction_impulse(vec3 s, float normal_impulse, float friction, float compli
   return vec4(t, limit < stop ? limit : stop);
 }
 
-// Two bodies as one of them sees it: e = its centre − the other's, reach = the sum of the radii. xyz: normal; w: gap.
+// Two bodies as one of them sees it: e = its center − the other's, reach = the sum of the radii. xyz: normal; w: gap.
 vec4 pair_gap(vec3 e, float reach, bool up) {
   precise float L = norm3(e);
   precise float d = L - reach;

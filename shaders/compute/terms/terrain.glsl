@@ -2,7 +2,7 @@
 #include "shapes/all.glsl"
 #include "compute/motion.glsl"
 
-// A loop of one round, which compilers can see, costs software rasterisers a twentieth of a step less.
+// A loop of one round, which compilers can see, costs software rasterizers a twentieth of a step less.
 #ifdef ASPIC_ONE_TERRAIN
 #define TERRAIN_COUNT 1u
 #else

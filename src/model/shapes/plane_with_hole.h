@@ -15,16 +15,16 @@ struct PlaneWithHole : Shape {
   static constexpr GeometryKey keys[] = {
       {"point", GeometryKind::place, Plane::keys[0].meaning, Vec3{0.0, 0.0, 0.0}},
       {"normal", GeometryKind::direction, Plane::keys[1].meaning, Vec3{0.0, 1.0, 0.0}},
-      {"centre", GeometryKind::place, Bowl::keys[0].meaning, Vec3{2.0, 6.364, 1.0}},
+      {"center", GeometryKind::place, Bowl::keys[0].meaning, Vec3{2.0, 6.364, 1.0}},
       {"radius", GeometryKind::length, Bowl::keys[1].meaning, 9.0}};
   static constexpr Vec3 drop = {-4.0, 2.9, 1.0};  // onto the rim
 
   template <class T>
   static TerrainGap<T> gap(const Geometry<T>& g, const Vec<T>& x) {
-    const auto& [point, normal, centre] = g.vectors;
+    const auto& [point, normal, center] = g.vectors;
     const T radius = g.numbers[0];
     const T over_plane = dot(normal, x - point);
-    const Vec<T> e = x - centre;
+    const Vec<T> e = x - center;
     const T L = length(e);
     const T within_bowl = radius - L;
     if (!(within_bowl > over_plane)) return {over_plane, normal};
@@ -37,13 +37,13 @@ struct PlaneWithHole : Shape {
 
   /// The bowl below the plane: u around the normal, v from the bottom to the rim.
   static Vec3 surface(const Geometry<double>& g, double u, double v) {
-    const auto& [point, normal, centre] = g.vectors;
+    const auto& [point, normal, center] = g.vectors;
     const double radius = g.numbers[0];
-    const double rim = std::acos(std::clamp(dot(normal, centre - point) / radius, -1.0, 1.0));
+    const double rim = std::acos(std::clamp(dot(normal, center - point) / radius, -1.0, 1.0));
     const double around = 2.0 * std::numbers::pi * u;
     const auto [first, second] = directions_across(normal);
     const Vec3 outwards = std::cos(around) * first + std::sin(around) * second;
-    return centre + radius * (std::sin(v * rim) * outwards - std::cos(v * rim) * normal);
+    return center + radius * (std::sin(v * rim) * outwards - std::cos(v * rim) * normal);
   }
 };
 

@@ -55,7 +55,7 @@ struct Shape {
   static constexpr std::nullptr_t surface = nullptr;
   /// Whether the surface is drawn as glass, for containers that hide what they hold.
   static constexpr bool glass = false;
-  /// Whether it is a ball, vector 0 its centre and number 0 its radius, whose shadow is drawn by formula.
+  /// Whether it is a ball, vector 0 its center and number 0 its radius, whose shadow is drawn by formula.
   static constexpr bool ball = false;
 };
 

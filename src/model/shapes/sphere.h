@@ -1,5 +1,5 @@
 #pragma once
-// Sphere: d = |x − c| − R, the normal outwards, (0, 1, 0) at the centre.
+// Sphere: d = |x − c| − R, the normal outwards, (0, 1, 0) at the center.
 #include <numbers>
 
 #include "model/shapes/shape.h"
@@ -8,16 +8,16 @@ namespace aspic::shapes {
 
 struct Sphere : Shape {
   static constexpr std::string_view name = "sphere", title = "sphere", kernel = "sphere";
-  static constexpr GeometryKey keys[] = {{"centre", GeometryKind::place, "Centre.", Vec3{0.0, -1.0, 0.0}},
+  static constexpr GeometryKey keys[] = {{"center", GeometryKind::place, "Center.", Vec3{0.0, -1.0, 0.0}},
                                          {"radius", GeometryKind::length, "Radius.", 3.0}};
   static constexpr Vec3 drop = {0.4, 4.9, 0.2};
   static constexpr bool ball = true;
 
   template <class T>
   static TerrainGap<T> gap(const Geometry<T>& g, const Vec<T>& x) {
-    const Vec<T>& centre = g.vectors[0];
+    const Vec<T>& center = g.vectors[0];
     const T radius = g.numbers[0];
-    const Vec<T> e = x - centre;
+    const Vec<T> e = x - center;
     const T L = length(e);
     const T d = L - radius;
     if (L == T(0)) return {d, {0, 1, 0}};

@@ -97,29 +97,29 @@ class Bodies {
     return minus(times(1 / count, sum), follow.start);
   }
 
-  // The state at a place of the recording, coloured as `look` says.
+  // The state at a place of the recording, colored as `look` says.
   move(place, look) {
     const { motion, run, springs, texels, facts } = this, { gl } = this.device, { x, v } = motion;
-    const next = Math.min(place.picture + 1, run.times.length - 1);
-    this.time = run.times[place.picture] + place.share * (run.times[next] - run.times[place.picture]);
+    const next = Math.min(place.image + 1, run.times.length - 1);
+    this.time = run.times[place.image] + place.share * (run.times[next] - run.times[place.image]);
     motion.at(place);
     const scaled = look.range !== null, drawn = types.some((type) => look[type]);
     for (let i = 0; i < facts.particles; ++i) texels.set(x.subarray(3 * i, 3 * i + 3), 4 * i);
     if (scaled) {
-      const some = look.particles || (drawn && look.colour === "speed") ? null : springs.skin;
+      const some = look.particles || (drawn && look.color === "speed") ? null : springs.skin;
       const count = some ? some.length : facts.particles;
       for (let i = 0; i < count; ++i) {
         const p = some ? some[i] : i;
-        texels[4 * p + 3] = springs.particleValue(look.colour, p, x, v);
+        texels[4 * p + 3] = springs.particleValue(look.color, p, x, v);
       }
     }
     if (look.solid) this.meshes.move(texels);
     this.device.bind(0, this.particles);
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, textureWidth, this.rows, gl.RGBA, gl.FLOAT, texels);
-    if (scaled && look.colour !== "speed")
+    if (scaled && look.color !== "speed")
       for (const [name, ribbons] of Object.entries(this.ribbons)) {
         if (!(name === "cords" ? drawsCords(look) : look[name])) continue;
-        ribbons.springs.forEach((s, i) => { ribbons.values[i] = springs.value(look.colour, s, x, v); });
+        ribbons.springs.forEach((s, i) => { ribbons.values[i] = springs.value(look.color, s, x, v); });
         this.fill(ribbons.buffer, ribbons.values);
       }
     this.moveBalls(place, look);
@@ -128,14 +128,14 @@ class Bodies {
 
   moveBalls(place, look) {
     const { facts, run, motion } = this, places = [], looks = [];
-    const f = place.picture, later = Math.min(f + 1, run.times.length - 1);
+    const f = place.image, later = Math.min(f + 1, run.times.length - 1);
     facts.balls.forEach((ball, i) => {
       const launched = this.time >= ball.launch * facts.timestep - 1e-9;
       const at = [0, 1, 2].map((c) => motion.balls[3 * i + c]);
       places.push(...at, launched ? ball.radius : 0);
       const step = run.times[later] - run.times[f], a = run.balls[f], b = run.balls[Math.min(later, run.balls.length - 1)];
       const speed = step > 0 ? Math.hypot(b[3 * i] - a[3 * i], b[3 * i + 1] - a[3 * i + 1], b[3 * i + 2] - a[3 * i + 2]) / step : 0;
-      looks.push(...ball.colour, look.colour === "speed" ? speed : -1);
+      looks.push(...ball.color, look.color === "speed" ? speed : -1);
     });
     this.ballPlaces = places;
     this.fill(this.places, Float32Array.from(places));
@@ -163,16 +163,16 @@ class Bodies {
       if (this.ballPlaces[i + 3] > 0) cover(...this.ballPlaces.slice(i, i + 4));
     if (low[0] > high[0]) cover(0, 0, 0, 1);
     const middle = times(0.5, plus(low, high)), half = times(0.5, minus(high, low));
-    return { centre: [...middle, 2.2 * Math.max(half[0], half[1], 0.1)], depth: 1.05 * half[2] + 0.05 };
+    return { center: [...middle, 2.2 * Math.max(half[0], half[1], 0.1)], depth: 1.05 * half[2] + 0.05 };
   }
 
   // Uniforms of the light maps.
   lights() {
     const values = {};
-    this.boxes.forEach(({ centre, depth }, i) => {
+    this.boxes.forEach(({ center, depth }, i) => {
       const [x, y, z] = this.lightRows[i];
       values[`lights[${i}].turn`] = [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]];
-      values[`lights[${i}].centre`] = centre;
+      values[`lights[${i}].center`] = center;
       values[`lights[${i}].depth`] = depth;
     });
     return values;

@@ -37,14 +37,14 @@ class Camera {
     this.distance = clamp(this.distance * factor, 0.02 * length(minus(this.view.position, this.view.target)), 1e4);
   }
 
-  // By shares of the picture's height.
+  // By shares of the image's height.
   pan(right, up) {
     const height = 2 * this.distance * Math.tan(this.fov / 2);
     const back = this.direction(), x = unit(cross([0, 1, 0], back)), y = cross(back, x);
     this.target = plus(this.target, plus(times(-right * height, x), times(-up * height, y)));
   }
 
-  // Uniforms for a picture of that size, with everything moved along.
+  // Uniforms for an image of that size, with everything moved along.
   frame(width, height, along) {
     const narrow = (4 / 3) * (height / width);
     const angle = narrow > 1 ? Math.min(2 * Math.atan(narrow * Math.tan(this.fov / 2)), 3.1) : this.fov;

@@ -1,14 +1,14 @@
 // Mouse, touch, keys and buttons.
 const $ = (id) => document.getElementById(id);
 
-// What colours mean: title of the legend, unit, and how many SI units one of it is.
+// What colors mean: title of the legend, unit, and how many SI units one of it is.
 const quantities = {
   strain: ["strain of the springs", " %", 0.01], "signed-strain": ["strain: − shortened, + stretched", " %", 0.01],
   actuation: ["rest lengths: − shortened, + stretched", " %", 0.01],
   speed: ["speed", " m/s", 1], force: ["force of the springs", " N", 1], energy: ["energy of the springs", " J", 1],
 };
-const colours = ["material", ...Object.keys(quantities).filter((colour) => colour !== "actuation"), "type", "actuation"];
-const hasSign = (colour) => colour === "signed-strain" || colour === "actuation";
+const colors = ["material", ...Object.keys(quantities).filter((color) => color !== "actuation"), "type", "actuation"];
+const hasSign = (color) => color === "signed-strain" || color === "actuation";
 
 // Drags of one finger or the mouse orbit, those of two fingers or with Shift or the right button pan, pinches and the wheel zoom.
 function watchPointers(canvas, camera, changed) {
@@ -47,12 +47,12 @@ function watchPointers(canvas, camera, changed) {
 }
 
 // Keys, what they do, and what the list of keys says of them.
-function keyTable({ player, camera, look, setColour, setLook, press }) {
+function keyTable({ player, camera, look, setColor, setLook, press }) {
   const turn = 0.1;
   return [
     [" ", "Space", "play or pause", () => press("play")],
-    ["ArrowLeft", "←", "one picture back; with Shift ten", (shift) => player.step(shift ? -10 : -1)],
-    ["ArrowRight", "→", "one picture on; with Shift ten", (shift) => player.step(shift ? 10 : 1)],
+    ["ArrowLeft", "←", "one image back; with Shift ten", (shift) => player.step(shift ? -10 : -1)],
+    ["ArrowRight", "→", "one image on; with Shift ten", (shift) => player.step(shift ? 10 : 1)],
     ["Home", "Home", "to the start", () => player.seek(-Infinity)],
     ["End", "End", "to the end", () => player.seek(Infinity)],
     ["[", "[", "slower", () => player.faster(-1)],
@@ -69,7 +69,7 @@ function keyTable({ player, camera, look, setColour, setLook, press }) {
     ["k", "K", "springs on or off", () => types.forEach((type, i, all) => setLook(type, !all.slice(0, i).concat(type).some((t) => look[t])))],
     ["p", "P", "particles on or off", () => setLook("particles", !look.particles)],
     ["x", "X", "axes on or off", () => setLook("axes", !look.axes)],
-    ...colours.map((colour, i) => [String(i + 1), String(i + 1), `colours: ${colour.replace("-", " ")}`, () => setColour(colour)]),
+    ...colors.map((color, i) => [String(i + 1), String(i + 1), `colors: ${color.replace("-", " ")}`, () => setColor(color)]),
     ...($("copy").hidden ? [] : [["c", "C", "copy the command", () => press("copy")]]),
     ["t", "T", "light or dark", () => press("theme")],
     ...($("live").hidden ? [] : [["n", "N", "restart with the values that are set", () => press("restart")]]),

@@ -1,4 +1,4 @@
-// What the page holds: facts of the run as JSON, and pictures as base64 of a raw deflate stream.
+// What the page holds: facts of the run as JSON, and images as base64 of a raw deflate stream.
 const jsonOf = (id) => JSON.parse(document.getElementById(id).textContent);
 
 function bytesOf(base64) {
@@ -8,7 +8,7 @@ function bytesOf(base64) {
   return bytes;
 }
 
-// Reads the stream as it is inflated, so that the first picture is there before the last.
+// Reads the stream as it is inflated, so that the first image is there before the last.
 class Inflated {
   constructor(bytes) {
     const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
@@ -50,7 +50,7 @@ class Inflated {
   }
 }
 
-// Vectors from picture to picture: each picture says how far they are from where the two before would take them.
+// Vectors from image to image: each image says how far they are from where the two before would take them.
 class Track {
   constructor(count, quantum) {
     this.count = count;
@@ -76,7 +76,7 @@ class Track {
   }
 }
 
-// One run: its facts, its shapes, and its pictures as far as they are inflated.
+// One run: its facts, its shapes, and its images as far as they are inflated.
 class Run {
   constructor(facts, end) {
     Object.assign(this, { facts, end, positions: [], balls: [], turns: [], changes: [], change: new Float32Array(facts.classes.length) });
@@ -117,21 +117,21 @@ class Run {
     mesh.corner = await this.readLists(data, mesh.triangles, 3);
   }
 
-  async readPicture(data) {
+  async readImage(data) {
     this.positions.push(await this.tracks[0].next(data));
     this.balls.push(await this.tracks[1].next(data));
     this.turn(await this.tracks[2].next(data));
     if (this.facts.actuated.length > 0) this.changes.push(await this.tracks[3].next(data));
   }
 
-  // Each ball turns from picture to picture by its angular velocity in the later one; none has turned in the first.
+  // Each ball turns from image to image by its angular velocity in the later one; none has turned in the first.
   turn(spins) {
-    const picture = this.turns.length, before = this.turns[picture - 1];
+    const image = this.turns.length, before = this.turns[image - 1];
     const turns = new Float32Array(4 * this.facts.balls.length);
     for (let i = 0; i < this.facts.balls.length; ++i) {
       const spin = spins.subarray(3 * i, 3 * i + 3), speed = length(spin);
       const q = before ? Array.from(before.subarray(4 * i, 4 * i + 4)) : [0, 0, 0, 1];
-      const seconds = before ? this.times[picture] - this.times[picture - 1] : 0;
+      const seconds = before ? this.times[image] - this.times[image - 1] : 0;
       turns.set(speed * seconds > 0 ? turned(q, times(1 / speed, spin), speed * seconds) : q, 4 * i);
     }
     this.turns.push(turns);
@@ -145,13 +145,13 @@ class Recording {
     this.data = new Inflated(bytesOf(element.textContent));
     element.remove();
     this.runs = this.facts.runs.map((facts, i) => this.makeRun(facts, ends[i]));
-    const pictures = ends[0].steps.length;
-    this.times = Array.from({ length: pictures }, (_, f) => Math.max(...this.runs.map((run) => run.times[f])));
+    const images = ends[0].steps.length;
+    this.times = Array.from({ length: images }, (_, f) => Math.max(...this.runs.map((run) => run.times[f])));
   }
 
   makeRun(facts, end) { return new Run(facts, end); }
 
-  // Pictures that are read and that there will be; changes of `version` are changes of what the pictures are.
+  // Images that are read and that there will be; changes of `version` are changes of what the images are.
   get read() { return this.runs[this.runs.length - 1].positions.length; }
   get count() { return this.times.length; }
   get complete() { return this.read === this.count; }
@@ -163,11 +163,11 @@ class Recording {
     for (const run of this.runs) await run.readShapes(this.data);
   }
 
-  // Calls `did` after the first picture and now and then, and gives the browser time between.
-  async readPictures(did) {
+  // Calls `did` after the first image and now and then, and gives the browser time between.
+  async readImages(did) {
     let shown = performance.now();
     for (let f = 0; f < this.times.length; ++f) {
-      for (const run of this.runs) await run.readPicture(this.data);
+      for (const run of this.runs) await run.readImage(this.data);
       if (f > 0 && performance.now() - shown < 30) continue;
       did();
       await new Promise((go) => setTimeout(go));
@@ -176,7 +176,7 @@ class Recording {
     did();
   }
 
-  // The picture before a time, and how far the time is on the way to the next one, 0…1.
+  // The image before a time, and how far the time is on the way to the next one, 0…1.
   place(time) {
     const last = this.read - 1;
     let low = 0, high = last;
@@ -185,8 +185,8 @@ class Recording {
       if (this.times[middle] <= time + 1e-9) low = middle;
       else high = middle - 1;
     }
-    if (low === last) return { picture: last, share: 0 };
+    if (low === last) return { image: last, share: 0 };
     const share = (time - this.times[low]) / (this.times[low + 1] - this.times[low]);
-    return { picture: low, share: share < 1e-6 ? 0 : share };
+    return { image: low, share: share < 1e-6 ? 0 : share };
   }
 }

@@ -1,5 +1,5 @@
-// Pictures of a run, pass by pass as docs/pictures.md describes ours.
-const units = { particles: 0, scale: 1, tiles: 2, sun_map: 3, sky_map: 4, thickness_map: 5, behind: 6, hole: 7, picture: 8 };
+// Images of a run, pass by pass as docs/images.md describes ours.
+const units = { particles: 0, scale: 1, tiles: 2, sun_map: 3, sky_map: 4, thickness_map: 5, behind: 6, hole: 7, image: 8 };
 const tileSize = 512;
 
 class Painter {
@@ -53,7 +53,7 @@ class Painter {
     this.resize(width, height);
     this.look = look;
     this.bodies = bodies;
-    const tint = look.colour === "material" ? look.tint ?? bodies.facts.bodies[0]?.colour ?? this.view.neutral : this.view.neutral;
+    const tint = look.color === "material" ? look.tint ?? bodies.facts.bodies[0]?.color ?? this.view.neutral : this.view.neutral;
     const solid = look.solid && bodies.facts.bodies.some((body) => body.style === "flesh");
     const balls = bodies.facts.terrain.filter((t) => t.radius && look.terrain).slice(0, 4)
       .flatMap((t) => [...plus(t.place, bodies.offset(t)), t.radius]);
@@ -63,7 +63,7 @@ class Painter {
       mapped: look.range ? 1 : 0, range: look.range ? [look.range[0], 1 / (look.range[1] - look.range[0])] : [0, 1],
       see_through: look.particles || types.some((type) => look[type]) ? 1 : 0 };
     device.bind(units.particles, bodies.particles);
-    device.bind(units.scale, hasSign(look.colour) ? this.scales.signed : this.scales.other);
+    device.bind(units.scale, hasSign(look.color) ? this.scales.signed : this.scales.other);
     device.bind(units.tiles, this.tiles);
     this.drawLights();
     device.bind(units.sun_map, bodies.maps[0].texture);
@@ -84,7 +84,7 @@ class Painter {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(left, bottom, width, height);
     gl.disable(gl.DEPTH_TEST);
-    device.bind(units.picture, behind.texture);
+    device.bind(units.image, behind.texture);
     device.use(programs.present, this.frame);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
@@ -224,7 +224,7 @@ class Painter {
   drawOpaque() {
     const { device, programs, bodies, frame, look, view } = this, { gl } = device, { facts } = bodies;
     if (look.solid && bodies.rods) {
-      device.use(programs.rods, frame, { base_colour: [0.94, 0.94, 0.94], offset: [0, 0, 0] });
+      device.use(programs.rods, frame, { base_color: [0.94, 0.94, 0.94], offset: [0, 0, 0] });
       this.drawMesh(bodies.rods);
     }
     gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
@@ -233,16 +233,16 @@ class Painter {
       this.drawBalls();
     }
     if (look.particles) {
-      device.use(programs.particles, frame, { radius: 0.16 * facts.spacing, base_colour: look.tint ?? facts.bodies[0].colour });
+      device.use(programs.particles, frame, { radius: 0.16 * facts.spacing, base_color: look.tint ?? facts.bodies[0].color });
       gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, facts.particles);
     }
     gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
     for (const type of types)
-      if (look[type]) this.drawRibbons(type, { radius: springRadius[type] * facts.spacing, fades: 0, base_colour: view.springColours[type] });
+      if (look[type]) this.drawRibbons(type, { radius: springRadius[type] * facts.spacing, fades: 0, base_color: view.springColors[type] });
     if (!look.solid) return;
     this.blended(() => this.drawSkins((body) => {
       if (body.style !== "sheet") return false;
-      device.use(programs.sheet, frame, { base_colour: this.colourOf(body) });
+      device.use(programs.sheet, frame, { base_color: this.colorOf(body) });
       return true;
     }));
     this.drawCords();
@@ -251,7 +251,7 @@ class Painter {
   drawRibbons(name, uniforms) {
     const { device, programs, frame, look, bodies: { ribbons } } = this, { gl } = device;
     if (!ribbons[name]) return;
-    device.use(programs.springs, frame, { ...uniforms, from_ends: look.colour === "speed" ? 1 : 0 });
+    device.use(programs.springs, frame, { ...uniforms, from_ends: look.color === "speed" ? 1 : 0 });
     gl.bindVertexArray(ribbons[name].array.vao);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, ribbons[name].count);
     gl.bindVertexArray(null);
@@ -261,14 +261,14 @@ class Painter {
   drawCords() {
     const { look, view, bodies: { facts }, device: { gl } } = this;
     if (!drawsCords(look)) return;
-    const base_colour = look.colour === "type" ? view.springColours.structural : look.tint ?? [0.035, 0.04, 0.055];
+    const base_color = look.color === "type" ? view.springColors.structural : look.tint ?? [0.035, 0.04, 0.055];
     gl.depthMask(false);
-    this.blended(() => this.drawRibbons("cords", { radius: springRadius.structural * facts.spacing, fades: 1, base_colour }));
+    this.blended(() => this.drawRibbons("cords", { radius: springRadius.structural * facts.spacing, fades: 1, base_color }));
     gl.depthMask(true);
   }
 
-  colourOf(body) {
-    return this.look.colour === "material" ? this.look.tint ?? body.colour : this.view.neutral;
+  colorOf(body) {
+    return this.look.color === "material" ? this.look.tint ?? body.color : this.view.neutral;
   }
 
   drawFlesh() {
@@ -291,7 +291,7 @@ class Painter {
     device.drawInto(samples);
     this.drawSkins((body) => {
       if (!flesh(body)) return false;
-      device.use(programs.jelly, frame, { base_colour: this.colourOf(body), reach: body.reach });
+      device.use(programs.jelly, frame, { base_color: this.colorOf(body), reach: body.reach });
       return true;
     });
     this.drawCords();

@@ -4,9 +4,9 @@ uniform vec4 eye;          // w: the target's distance [m]
 uniform vec4 viewer;       // the eye and 1, or where sight lines come from and 0 if they are parallel
 uniform vec4 sun;          // towards it
 uniform vec4 viewport;     // width, height, 1/width, 1/height
-uniform vec4 shades[4];    // balls of the terrain: centre, radius [m]; radius 0: none
+uniform vec4 shades[4];    // balls of the terrain: center, radius [m]; radius 0: none
 uniform vec2 range;        // least value of the scale, 1/(largest − least)
-uniform int mapped;        // 1: colours are those of the scale
+uniform int mapped;        // 1: colors are those of the scale
 uniform float see_through; // 1: bodies show what is inside
 uniform sampler2D scale;
 #include "daylight.glsl"
@@ -20,11 +20,11 @@ vec3 on_scale(float value) {
 float sphere_shade(vec3 world) {
   float light = 1.0;
   for (int i = 0; i < 4; ++i) {
-    vec3 to_centre = shades[i].xyz - world;
-    float along = dot(to_centre, sun.xyz);
-    float beside = length(to_centre - along * sun.xyz);
+    vec3 to_center = shades[i].xyz - world;
+    float along = dot(to_center, sun.xyz);
+    float beside = length(to_center - along * sun.xyz);
     float blur = 0.06 * max(along, 0.0) + 0.01;
-    if (shades[i].w > 0.0 && along > 0.05 && length(to_centre) > 1.001 * shades[i].w)
+    if (shades[i].w > 0.0 && along > 0.05 && length(to_center) > 1.001 * shades[i].w)
       light *= smoothstep(-blur, blur, beside - shades[i].w);
   }
   return light;

@@ -1,10 +1,10 @@
-// A ground that is drawn only (view.ground): lines every metre, stronger every five, and shadows.
+// A ground that is drawn only (view.ground): lines every meter, stronger every five, and shadows.
 #include "frame.glsl"
 #include "shadow.glsl"
 uniform vec4 plane_point;
 in vec3 world;
 in vec2 local;
-out vec4 colour;
+out vec4 color;
 
 float lines(float step_size, float width) {
   vec2 pixel = fwidth(local);
@@ -20,5 +20,5 @@ void main() {
   float sunny = dot(sunlight_at(world), vec3(1.0 / 3.0)) * 0.75 + 0.25 * skylight_at(world);
   float line = max(0.55 * lines(1.0, 0.02), 0.85 * lines(5.0, 0.05));
   vec3 light = mix(vec3(0.50, 0.54, 0.58), vec3(0.16, 0.22, 0.30), line) * (0.25 + 0.75 * sunny);
-  colour = vec4(light, mix(0.22 + 0.40 * (1.0 - sunny), 0.60, line) * near);
+  color = vec4(light, mix(0.22 + 0.40 * (1.0 - sunny), 0.60, line) * near);
 }

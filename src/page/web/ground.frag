@@ -12,7 +12,7 @@ uniform float hole_half;   // half the side of the texture [m]
 #endif
 in vec3 world;
 in vec2 local;
-out vec4 colour;
+out vec4 color;
 
 void main() {
 #ifdef HOLED
@@ -32,5 +32,5 @@ void main() {
   vec3 off = (world - plane_point.xyz) / plane_point.w;
   float haze = smoothstep(0.0025, 0.50, dot(off, off));
   light = mix(light, landscape(-v), 1.0 - (1.0 - haze) * (1.0 - haze));
-  colour = vec4(to_display(light), behind ? 0.3 : 1.0);
+  color = vec4(to_display(light), behind ? 0.3 : 1.0);
 }

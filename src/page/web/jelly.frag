@@ -4,18 +4,18 @@
 uniform sampler2D sun_map;
 uniform sampler2D thickness_map;
 uniform sampler2D behind;
-uniform vec3 base_colour;
+uniform vec3 base_color;
 uniform float reach;  // half the length that light travels inside [m]
 in vec3 world;
 in vec3 surface_normal;
 in float shown;
-out vec4 colour;
+out vec4 color;
 
 void main() {
   vec3 n = normalize(surface_normal), v = to_eye(world);
   if (!gl_FrontFacing) n = -n;
   float nv = max(dot(n, v), 0.2);
-  vec3 base = mapped == 1 ? on_scale(shown) : base_colour;
+  vec3 base = mapped == 1 ? on_scale(shown) : base_color;
 
   vec3 p = in_light(0, world);
   vec2 first = textureLod(sun_map, 0.5 + 0.5 * p.xy, 1.5).xy;
@@ -43,5 +43,5 @@ void main() {
   vec3 light = body * opacity + rim * 0.55 * mix(base, vec3(1.0), 0.15) * ambient(n) * opacity;
   light = light * (1.0 - mirror) + studio(reflect(-v, n)) * mirror;
   light += sun_light * (0.035 * highlight(n, v, sun.xyz, 0.22) + 0.02 * highlight(n, v, sun.xyz, 0.5)) * step(inside, 0.25);
-  colour = vec4(to_display(light + seen * tint * (1.0 - opacity) * (1.0 - mirror)), 1.0);
+  color = vec4(to_display(light + seen * tint * (1.0 - opacity) * (1.0 - mirror)), 1.0);
 }

@@ -1,9 +1,9 @@
-// A page that simulates: its pictures come from a worker, as the recorded ones come from the file, and what a reader changes takes
+// A page that simulates: its images come from a worker, as the recorded ones come from the file, and what a reader changes takes
 // effect at the moment that is shown.
 class LiveRun extends Run {
   constructor(facts, end) {
     super(facts, { hash: "", precision: end.precision, steps: [], kinetic: [], elastic: [], gravitational: [], work: [] });
-    Object.assign(this, { states: [], hashes: [], before: 0 });  // all numbers of each picture, their hash; work before the last change
+    Object.assign(this, { states: [], hashes: [], before: 0 });  // all numbers of each image, their hash; work before the last change
   }
 
   take({ step, hash, numbers, kinetic, elastic, gravitational, work, changes }) {
@@ -21,7 +21,7 @@ class LiveRun extends Run {
     if (facts.actuated.length > 0) this.changes.push(changes);
   }
 
-  // Forgets all pictures but so many.
+  // Forgets all images but so many.
   keep(count) {
     const { end } = this;
     delete end.diverged;
@@ -60,7 +60,7 @@ class LiveRecording extends Recording {
   get diverged() { return this.run.end.diverged; }
   get changed() { return this.changedFrom < Infinity; }
 
-  // How many pictures have the bits that the machine computed, and the step of the first that has others; pictures before a change count.
+  // How many images have the bits that the machine computed, and the step of the first that has others; images before a change count.
   get bits() {
     let same = 0;
     for (let f = 0; f < Math.min(this.times.length, this.changedFrom); ++f) {
@@ -80,20 +80,20 @@ class LiveRecording extends Recording {
     }
   }
 
-  // Steps of the pictures after a step: those that aspic run would choose (io/frame_schedule.h).
+  // Steps of the images after a step: those that aspic run would choose (io/frame_schedule.h).
   plan(after) {
     const { timestep, facts: { fps, speed } } = this, first = Math.round(this.first / timestep), last = Math.round(this.last / timestep);
-    const perPicture = speed / fps / timestep, steps = [];
+    const perImage = speed / fps / timestep, steps = [];
     for (let f = 0, step = first; step < last; ++f) {
-      step = Math.min(first + Math.round(f * perPicture), last);
+      step = Math.min(first + Math.round(f * perImage), last);
       if (step > after && step !== steps.at(-1)) steps.push(step);
     }
     if (after < last && steps.at(-1) !== last) steps.push(last);
     return steps;
   }
 
-  // Calls `did` with each picture, and where there is something else to say.
-  readPictures(did) {
+  // Calls `did` with each image, and where there is something else to say.
+  readImages(did) {
     const text = document.getElementById("worker").textContent, module = document.getElementById("module");
     const url = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
     this.worker = new Worker(url);
@@ -149,9 +149,9 @@ class LiveRecording extends Recording {
     this.send({ command: "create", text: this.live.scene, state: this.startState }, -1);
   }
 
-  // From a picture on with other values: [path, value] each.
-  change(changes, picture) {
-    const { run } = this, at = Math.min(picture, run.states.length - 1), time = run.times[at];
+  // From an image on with other values: [path, value] each.
+  change(changes, image) {
+    const { run } = this, at = Math.min(image, run.states.length - 1), time = run.times[at];
     if (at < 0) return;
     this.before = [new Map(this.applied), this.timestep];
     for (const [path, value] of changes) {

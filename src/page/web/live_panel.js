@@ -26,7 +26,7 @@ class LivePanel {
       (own) => this.recording.values.get(row.path).map((old, j) => (j === i ? own : old)), (value) => value[i]));
   }
 
-  labelled(row, text, ...parts) {
+  labeled(row, text, ...parts) {
     const label = document.createElement("label"), name = document.createElement("span");
     label.className = "control";
     label.title = row.meaning;
@@ -45,14 +45,14 @@ class LivePanel {
     select.append(...row.words.map((word) => new Option(word)));
     select.addEventListener("change", () => this.set(row.path, select.value));
     this.shown.set(row.path, [() => { select.value = this.recording.values.get(row.path); }]);
-    return this.labelled(row, row.label, select);
+    return this.labeled(row, row.label, select);
   }
 
   box(row) {
     const box = Object.assign(document.createElement("input"), { type: "checkbox" });
     box.addEventListener("change", () => this.set(row.path, box.checked));
     this.shown.set(row.path, [() => { box.checked = this.recording.values.get(row.path); }]);
-    return this.labelled(row, row.label, box);
+    return this.labeled(row, row.label, box);
   }
 
   // A slider and a field; `toValue` makes the row's value of the number, `ofValue` the number of the row's value.
@@ -77,10 +77,10 @@ class LivePanel {
       if (document.activeElement !== field) field.value = shownNumber(x);
     };
     this.shown.set(row.path, [...(this.shown.get(row.path) ?? []), show]);
-    return this.labelled(row, text, slider, field);
+    return this.labeled(row, text, slider, field);
   }
 
-  // Slides are many; they take effect once a picture.
+  // Slides are many; they take effect once an image.
   set(path, value) {
     if (this.pending.size === 0) requestAnimationFrame(() => this.apply());
     this.pending.set(path, value);
@@ -94,9 +94,9 @@ class LivePanel {
     if (recording.read === 0) return void requestAnimationFrame(() => this.apply());  // it has just begun again
     this.pending.clear();
     const atEnd = recording.done && player.time >= recording.end - 1e-9;
-    const picture = atEnd ? 0 : player.place.picture;
-    recording.change(changes, picture);
-    player.time = recording.times[picture];
+    const image = atEnd ? 0 : player.place.image;
+    recording.change(changes, image);
+    player.time = recording.times[image];
     if (atEnd) player.playing = true;
     this.page.changed();
   }
@@ -129,7 +129,7 @@ class LivePanel {
   }
 
   said(same, other) {
-    const { recording } = this, count = (n) => `${n} picture${n === 1 ? "" : "s"}`;
+    const { recording } = this, count = (n) => `${n} image${n === 1 ? "" : "s"}`;
     const why = recording.live.sheets ? " Browsers keep denormal numbers, which Aspic sets to zero; they occur in nets and cloth." : "";
     if (other !== null) return `Other bits than on the machine that made this page, from step ${other} on.${why}`;
     if (!recording.changed) return `The same bits as on the machine that made this page, in ${same === recording.machine.steps.length ? "all" : "the first"} ${count(same)}.`;

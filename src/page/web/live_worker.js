@@ -1,4 +1,4 @@
-// The worker of a page that simulates: the reference solver as WebAssembly (src/live/exports.cpp), picture after picture.
+// The worker of a page that simulates: the reference solver as WebAssembly (src/live/exports.cpp), image after image.
 "use strict";
 let wasm, size, plan = [], step = 0, generation = 0, steps = 0, spent = 0;
 const again = new MessageChannel();  // between two slices of work the worker hears what it is told
@@ -55,7 +55,7 @@ function enter(state) {
   step = state.step;
 }
 
-function picture() {
+function image() {
   if (wasm.take() !== 0) throw new Error(answer());
   const measured = JSON.parse(answer()), copy = numbers().slice();
   postMessage({ generation, ...measured, numbers: copy, steps, spent }, [copy.buffer]);
@@ -73,7 +73,7 @@ function work() {
       if (code === 1) throw new Error(answer());
       if (code === 2) {
         const said = answer();
-        picture();
+        image();
         plan = [];
         postMessage({ generation, diverged: said });
         return;
@@ -84,7 +84,7 @@ function work() {
       spent += took;
     }
     if (step === plan[0]) {
-      picture();
+      image();
       plan.shift();
     }
     if (plan.length > 0 && performance.now() - begun > 25) {

@@ -1,21 +1,21 @@
 // The page in motion.
-const runColours = ["rgb(242 176 92)", "rgb(110 165 240)", "rgb(120 205 140)", "rgb(224 130 200)"];
+const runColors = ["rgb(242 176 92)", "rgb(110 165 240)", "rgb(120 205 140)", "rgb(224 130 200)"];
 const runTints = [[242, 176, 92], [110, 165, 240], [120, 205, 140], [224, 130, 200]].map((rgb) =>
   rgb.map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4)));
-const axisColours = { x: "rgb(231 69 69)", y: "rgb(89 196 80)", z: "rgb(69 129 243)" };
+const axisColors = { x: "rgb(231 69 69)", y: "rgb(89 196 80)", z: "rgb(69 129 243)" };
 const parts = ["solid", "particles", "terrain", "axes", ...types];
 
 class Page {
   constructor() {
     this.recording = document.getElementById("module") ? new LiveRecording() : new Recording();
-    const { facts, runs } = this.recording, { draw, colour, terrain, axes } = facts.view;
+    const { facts, runs } = this.recording, { draw, color, terrain, axes } = facts.view;
     this.several = runs.length > 1;
     this.player = new Player(this.recording);
     this.camera = new Camera(facts.view);
-    this.look = { ...draw, terrain, axes, colour: "material" };
-    if (this.offers(colour)) this.look.colour = colour;
+    this.look = { ...draw, terrain, axes, color: "material" };
+    if (this.offers(color)) this.look.color = color;
     this.plot = new Plot($("plot"), this.recording);
-    this.stats = { firstPicture: 0, pictures: 0 };
+    this.stats = { firstImage: 0, images: 0 };
     this.quality = 1;
     this.fault = "";
     this.fill();
@@ -28,7 +28,7 @@ class Page {
     await this.recording.readShapes();
     this.setUp();
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches && !location.hash.includes("paused")) this.player.playing = true;
-    await this.recording.readPictures(() => this.heard());
+    await this.recording.readImages(() => this.heard());
     this.changed();
   }
 
@@ -56,7 +56,7 @@ class Page {
     $("author").textContent = facts.author;
     $("command").textContent = facts.command;
     $("command").hidden = $("copy").hidden = facts.command === "";  // the window's pages have none
-    for (const colour of colours.filter((colour) => this.offers(colour))) $("colour").append(new Option(colour === "signed-strain" ? "strain, signed" : colour, colour));
+    for (const color of colors.filter((color) => this.offers(color))) $("color").append(new Option(color === "signed-strain" ? "strain, signed" : color, color));
     $("speed").append(...speeds.map((s) => new Option(s < 1 ? `1/${1 / s} ×` : `${s} ×`, s)));
     $("parameters").replaceChildren(...runs.flatMap((run, i) => {
       const table = document.createElement("table");
@@ -64,14 +64,14 @@ class Page {
       if (!this.several) return [table];
       const head = document.createElement("h3");
       head.textContent = run.facts.name;
-      head.style.setProperty("--run", runColours[i]);
+      head.style.setProperty("--run", runColors[i]);
       return [head, table];
     }));
     this.fillAbout();
     $("labels").replaceChildren(...(this.several ? runs : []).map((run, i) => {
       const tile = document.createElement("div"), label = document.createElement("span");
       tile.className = "tile";
-      tile.style.setProperty("--run", runColours[i]);
+      tile.style.setProperty("--run", runColors[i]);
       tile.append(label);
       return tile;
     }));
@@ -91,7 +91,7 @@ class Page {
         ...(end.diverged ? [["", end.diverged]] : [])];
     });
     const error = runs.map((run) => `${shortNumber(500 * run.facts.quantum)} mm`);
-    if (!live) about.push(["pictures", `${recording.times.length}`], ["positions", `within ${[...new Set(error)].join(", ")} in x, y and z`]);
+    if (!live) about.push(["images", `${recording.times.length}`], ["positions", `within ${[...new Set(error)].join(", ")} in x, y and z`]);
     $("about").replaceChildren(...rowsOf([...about, ["made by", facts.program]]));
   }
 
@@ -99,7 +99,7 @@ class Page {
     const { player, camera, look } = this, changed = () => this.changed();
     const press = (id) => $(id).click();
     watchPointers($("view"), camera, changed);
-    watchKeys(keyTable({ player, camera, look, press, setColour: (colour) => this.setColour(colour), setLook: (what, on) => this.setLook(what, on) }), changed);
+    watchKeys(keyTable({ player, camera, look, press, setColor: (color) => this.setColor(color), setLook: (what, on) => this.setLook(what, on) }), changed);
     const on = (id, event, act) => $(id).addEventListener(event, () => {
       act($(id));
       changed();
@@ -113,7 +113,7 @@ class Page {
       player.playing = false;
       player.time = this.recording.times[Math.min(Number(range.value), this.recording.read - 1)];
     });
-    on("colour", "change", (select) => this.setColour(select.value));
+    on("color", "change", (select) => this.setColor(select.value));
     for (const what of parts) on(what, "change", (box) => this.setLook(what, box.checked));
     on("reset", "click", () => camera.reset());
     on("help", "click", () => ($("keys").open ? $("keys").close() : $("keys").showModal()));
@@ -144,15 +144,15 @@ class Page {
     });
   }
 
-  // Only actuated runs have the colour `actuation`.
-  offers(colour) {
-    if (colour === "actuation") return this.recording.runs.every((run) => run.facts.actuated.length > 0);
-    return colours.includes(colour);
+  // Only actuated runs have the color `actuation`.
+  offers(color) {
+    if (color === "actuation") return this.recording.runs.every((run) => run.facts.actuated.length > 0);
+    return colors.includes(color);
   }
 
-  setColour(colour) {
-    if (!this.offers(colour)) return;
-    this.look.colour = colour;
+  setColor(color) {
+    if (!this.offers(color)) return;
+    this.look.color = color;
     this.showLook();
     this.changed();
   }
@@ -165,19 +165,19 @@ class Page {
 
   showLook() {
     const { look, recording: { runs, facts } } = this;
-    $("colour").value = look.colour;
+    $("color").value = look.color;
     for (const what of parts) $(what).checked = look[what];
-    const ranges = runs.map((run) => run.facts.ranges[look.colour]);
+    const ranges = runs.map((run) => run.facts.ranges[look.color]);
     look.range = ranges[0] ? [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))] : null;
     const named = look.range ? [] : this.namedSprings();
     $("legend").hidden = !look.range && named.length === 0;
     $("legend-scale").hidden = !look.range;
     if (named.length > 0) this.showTypes(named);
     if (!look.range) return;
-    const [title, unit, size] = quantities[look.colour], [low, high] = look.range;
+    const [title, unit, size] = quantities[look.color], [low, high] = look.range;
     $("legend-title").textContent = title;
     const mark = (x) => shortNumber(Number((x / size).toPrecision(12))) + unit;
-    const signed = hasSign(look.colour);
+    const signed = hasSign(look.color);
     $("legend-marks").replaceChildren(...[(low !== 0 || signed ? "≤ " : "") + mark(low), mark((low + high) / 2), "≥ " + mark(high)].map((text) => {
       const span = document.createElement("span");
       span.textContent = text;
@@ -188,10 +188,10 @@ class Page {
     $("legend-scale").style.background = `linear-gradient(to right, ${stops.join(", ")})`;
   }
 
-  // Types of springs that are drawn in their own colours.
+  // Types of springs that are drawn in their own colors.
   namedSprings() {
     const { look, recording: { runs } } = this;
-    const cords = look.colour === "type" && look.solid && runs.some((run) => run.facts.bodies.some((body) => body.style === "cords"));
+    const cords = look.color === "type" && look.solid && runs.some((run) => run.facts.bodies.some((body) => body.style === "cords"));
     return types.filter((type) => look[type] || (cords && type === "structural"));
   }
 
@@ -199,26 +199,26 @@ class Page {
     $("legend-title").textContent = "springs";
     $("legend-marks").replaceChildren(...named.map((type) => {
       const span = document.createElement("span"), sample = document.createElement("i");
-      const rgb = this.recording.facts.view.springColours[type].map((c) => Math.round(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055)));
+      const rgb = this.recording.facts.view.springColors[type].map((c) => Math.round(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055)));
       sample.style.setProperty("--of", `rgb(${rgb.join(" ")})`);
       span.append(sample, type);
       return span;
     }));
   }
 
-  // In a corner of the picture, as in ours.
+  // In a corner of the image, as in ours.
   showAxes() {
-    const picture = $("axes-picture");
-    picture.style.display = this.look.axes ? "" : "none";
+    const image = $("axes-image");
+    image.style.display = this.look.axes ? "" : "none";
     if (!this.look.axes) return;
     // Numbers and letters of our own alone.
-    picture.innerHTML = `<circle r="3.4"/>${this.camera.axes().map(([letter, right, down]) =>
-      `<line x2="${2.2 * right}" y2="${2.2 * down}" stroke="${axisColours[letter]}"/><text x="${2.8 * right}" y="${2.8 * down}">${letter}</text>`).join("")}`;
+    image.innerHTML = `<circle r="3.4"/>${this.camera.axes().map(([letter, right, down]) =>
+      `<line x2="${2.2 * right}" y2="${2.2 * down}" stroke="${axisColors[letter]}"/><text x="${2.8 * right}" y="${2.8 * down}">${letter}</text>`).join("")}`;
   }
 
-  // Pictures were read, or something was said of them. Where none is waited for, the one that is shown stays.
+  // Images were read, or something was said of them. Where none is waited for, the one that is shown stays.
   heard() {
-    const waiting = this.stats.pictures === 0 || this.recording.read === 1 || this.player.playing;
+    const waiting = this.stats.images === 0 || this.recording.read === 1 || this.player.playing;
     if (waiting || !this.recording.live) return this.changed();
     if (!this.telling) requestAnimationFrame(() => { this.telling = false; this.show(); });
     this.telling = true;
@@ -266,15 +266,15 @@ class Page {
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     if (this.device.gl.isContextLost()) return;
     this.tiles(width, height).forEach((tile, i) => {
-      const look = { ...this.look, tint: this.several && this.look.colour === "material" ? runTints[i] : undefined };
+      const look = { ...this.look, tint: this.several && this.look.color === "material" ? runTints[i] : undefined };
       this.bodies[i].move(place, look);
       this.painter.draw(this.bodies[i], this.camera, look, tile);
     });
-    if (this.stats.firstPicture === 0) this.stats.firstPicture = performance.now();
-    ++this.stats.pictures;
+    if (this.stats.firstImage === 0) this.stats.firstImage = performance.now();
+    ++this.stats.images;
   }
 
-  // The parts of a picture: two side by side, or one above the other where it is higher than wide; more in two rows.
+  // The parts of an image: two side by side, or one above the other where it is higher than wide; more in two rows.
   tiles(width, height) {
     const count = this.recording.runs.length, gap = count > 1 ? 2 : 0;
     const columns = count > 2 || (count === 2 && width >= height) ? 2 : 1, rows = Math.ceil(count / columns);
@@ -286,7 +286,7 @@ class Page {
   show() {
     const { player, recording, plot } = this;
     if (recording.read === 0) return;
-    const place = player.place, nearest = place.picture + Math.round(place.share);
+    const place = player.place, nearest = place.image + Math.round(place.share);
     $("play").textContent = player.playing ? "Pause" : "Play";
     $("play").setAttribute("aria-pressed", player.playing);
     $("loop").setAttribute("aria-pressed", player.loop);
@@ -299,13 +299,13 @@ class Page {
     $("scrub").setAttribute("aria-valuetext", `${player.time.toFixed(3)} seconds`);
     plot.draw(player.time);
     const entries = this.several
-      ? recording.runs.map((run, i) => [run.facts.name, energies.reduce((sum, e) => sum + plot.at(i, place)[e], 0), runColours[i]])
+      ? recording.runs.map((run, i) => [run.facts.name, energies.reduce((sum, e) => sum + plot.at(i, place)[e], 0), runColors[i]])
       : [...energies].reverse().map((e) => [e, plot.at(0, place)[e], `var(--${e})`]);
     const work = this.several ? undefined : plot.work(place);
     if (work !== undefined) entries.push(["work of actuators", work, "var(--soft)"]);
-    $("energies").replaceChildren(...entries.map(([name, joules, colour]) => {
+    $("energies").replaceChildren(...entries.map(([name, joules, color]) => {
       const item = document.createElement("li");
-      item.style.setProperty("--run", colour);
+      item.style.setProperty("--run", color);
       item.textContent = `${name} ${shortNumber(joules)} J`;
       return item;
     }));
@@ -315,13 +315,13 @@ class Page {
       const run = recording.runs[i], { left, bottom, width, height } = tiles[i];
       Object.assign(tile.style, { left: `${left}px`, top: `${h - bottom - height}px`, width: `${width}px`, height: `${height}px` });
       const ended = run.end.diverged && nearest === recording.times.length - 1 || run.end.diverged && run.times[nearest] >= run.times.at(-1);
-      const time = run.times[place.picture] + place.share * (run.times[Math.min(place.picture + 1, run.times.length - 1)] - run.times[place.picture]);
+      const time = run.times[place.image] + place.share * (run.times[Math.min(place.image + 1, run.times.length - 1)] - run.times[place.image]);
       tile.firstChild.textContent = `${run.facts.name} · ${time.toFixed(3)} s${ended ? " · diverged" : ""}`;
     });
   }
 
-  // The picture at this moment as the URL of a PNG, of that size; for tests, and for whoever wants one.
-  picture(width, height) {
+  // The image at this moment as the URL of a PNG, of that size; for tests, and for whoever wants one.
+  image(width, height) {
     this.drawAt(width, height);
     const url = $("view").toDataURL("image/png");
     this.changed();

@@ -50,7 +50,7 @@ function turned(q, axis, angle) {
   return [...v, w * q[3] - dot(a, q)];
 }
 
-// A number in few characters, as our pictures write it.
+// A number in few characters, as our images write it.
 function shortNumber(x) {
   const size = Math.abs(x);
   if (x === 0) return "0";

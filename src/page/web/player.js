@@ -17,11 +17,11 @@ class Player {
 
   seek(time) { this.time = clamp(time, this.recording.start, this.last); }
 
-  // By pictures, from the one that is shown or was passed last.
-  step(pictures) {
+  // By images, from the one that is shown or was passed last.
+  step(images) {
     this.playing = false;
-    const { picture, share } = this.place, from = pictures < 0 && share > 0 ? picture + 1 : picture;
-    this.time = this.recording.times[clamp(from + pictures, 0, this.recording.read - 1)];
+    const { image, share } = this.place, from = images < 0 && share > 0 ? image + 1 : image;
+    this.time = this.recording.times[clamp(from + images, 0, this.recording.read - 1)];
   }
 
   // Goes on by so many seconds of the reader's.

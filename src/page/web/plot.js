@@ -6,7 +6,7 @@ class Plot {
     Object.assign(this, { canvas, recording, version: -1 });
   }
 
-  // The energies of all pictures, where there are others than before.
+  // The energies of all images, where there are others than before.
   count() {
     const { recording } = this;
     if (this.version === recording.version) return;
@@ -32,17 +32,17 @@ class Plot {
   }
   y(energy) { return this.height - 1 - (energy / this.most) * (this.height - 6); }
 
-  // Energies of a run at a time, between its pictures.
-  at(run, { picture, share }) {
+  // Energies of a run at a time, between its images.
+  at(run, { image, share }) {
     this.count();
-    const next = Math.min(picture + 1, this.recording.times.length - 1), row = this.rows[run];
-    return Object.fromEntries(energies.map((e) => [e, row[e][picture] + share * (row[e][next] - row[e][picture])]));
+    const next = Math.min(image + 1, this.recording.times.length - 1), row = this.rows[run];
+    return Object.fromEntries(energies.map((e) => [e, row[e][image] + share * (row[e][next] - row[e][image])]));
   }
 
-  // The work of one run's actuators so far, between its pictures; undefined without any.
-  work({ picture, share }) {
-    const work = this.recording.runs[0].end.work ?? [], next = Math.min(picture + 1, work.length - 1);
-    return work.length > 0 ? work[picture] + share * (work[next] - work[picture]) : undefined;
+  // The work of one run's actuators so far, between its images; undefined without any.
+  work({ image, share }) {
+    const work = this.recording.runs[0].end.work ?? [], next = Math.min(image + 1, work.length - 1);
+    return work.length > 0 ? work[image] + share * (work[next] - work[image]) : undefined;
   }
 
   draw(time) {
@@ -86,7 +86,7 @@ class Plot {
   drawLines(c) {
     this.sums.forEach((sums, i) => {
       this.path(c, sums);
-      c.strokeStyle = runColours[i];
+      c.strokeStyle = runColors[i];
       c.lineWidth = 2;
       c.stroke();
     });

@@ -1,7 +1,7 @@
-// The finished picture, in linear light, onto the canvas.
+// The finished image, in linear light, onto the canvas.
 #include "encode.glsl"
-uniform sampler2D picture;
+uniform sampler2D image;
 in vec2 on_screen;
-out vec4 colour;
+out vec4 color;
 
-void main() { colour = vec4(encoded(textureLod(picture, 0.5 + 0.5 * on_screen, 0.0).rgb), 1.0); }
+void main() { color = vec4(encoded(textureLod(image, 0.5 + 0.5 * on_screen, 0.0).rgb), 1.0); }

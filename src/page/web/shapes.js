@@ -1,6 +1,6 @@
 // What is drawn, as arrays for the device: skins, springs' ends, terrain, rods.
 
-const ownNormal = 0xffffffff;  // in place of a vertex's last neighbour
+const ownNormal = 0xffffffff;  // in place of a vertex's last neighbor
 
 // Meshes that follow particles. Each vertex has two texels after those of the particles: where it is, its normal.
 class Meshes {
@@ -15,7 +15,7 @@ class Meshes {
     }
   }
 
-  // Trilinear means of the cells' corners, colours too; then normals: means of the triangles, weighted by area (src/model/skin.h).
+  // Trilinear means of the cells' corners, colors too; then normals: means of the triangles, weighted by area (src/model/skin.h).
   move(texels) {
     for (const mesh of this.list) {
       const begin = 4 * mesh.first, { vertices } = mesh;
@@ -50,7 +50,7 @@ class Meshes {
   }
 }
 
-// The skins of a run by body: each vertex is a particle with its neighbours along the quads of its group of normals: along
+// The skins of a run by body: each vertex is a particle with its neighbors along the quads of its group of normals: along
 // the side from a quad's corner 0 to 1 the next and the one before, likewise from corner 0 to 3; itself where there is none. Of a mesh
 // it is the vertex's own texel, with that of its normal.
 function skins(facts) {

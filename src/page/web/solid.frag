@@ -5,7 +5,7 @@ uniform sampler2D tiles;
 uniform vec3 place;
 in vec3 world;
 in vec3 surface_normal;
-out vec4 colour;
+out vec4 color;
 
 void main() {
   vec3 n = normalize(surface_normal), v = to_eye(world);
@@ -15,5 +15,5 @@ void main() {
   float open = skylight_at(world), nl = max(dot(n, sun.xyz), 0.0);
   vec3 light = albedo * (0.46 * sun_light * nl * sunny * (0.45 + 0.55 * open) + 0.62 * open * ambient(n));
   light += 0.10 * open * fresnel(dot(n, v), 0.03) * horizon_light;
-  colour = vec4(to_display(light), 1.0);
+  color = vec4(to_display(light), 1.0);
 }

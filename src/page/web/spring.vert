@@ -5,7 +5,7 @@ layout(location = 0) in uvec2 ends;
 layout(location = 1) in float value;
 uniform float radius;
 uniform int fades;       // 1: thinner than a pixel it covers as much as its own width does
-uniform int from_ends;   // 1: colours show what the particles at the ends have
+uniform int from_ends;   // 1: colors show what the particles at the ends have
 out float across;
 out vec3 sideways;
 out vec3 towards_eye;

@@ -1,4 +1,4 @@
-// Springs, and the numbers that colours show (docs/pictures.md).
+// Springs, and the numbers that colors show (docs/images.md).
 const drawnSprings = 1000000;  // of larger runs those of the skin are drawn
 
 // Every particle of a run's skins.
@@ -70,17 +70,17 @@ class Springs {
     return this.ofType("structural").filter((s) => ofNet(this.a[s]));
   }
 
-  // What a colour shows of one spring between x and moving at v (all particles').
-  value(colour, s, x, v) {
+  // What a color shows of one spring between x and moving at v (all particles').
+  value(color, s, x, v) {
     const own = this.run.facts.classes[this.classes[s]], a = 3 * this.a[s], b = 3 * this.b[s];
     const ex = x[a] - x[b], ey = x[a + 1] - x[b + 1], ez = x[a + 2] - x[b + 2];
     const change = this.run.change[this.classes[s]], r = own.r * (1 + change);
     const L = Math.sqrt(ex * ex + ey * ey + ez * ez), stretch = L - r;
-    if (colour === "actuation") return change;
-    if (colour === "strain") return Math.abs(stretch) / r;
-    if (colour === "signed-strain") return stretch / r;
+    if (color === "actuation") return change;
+    if (color === "strain") return Math.abs(stretch) / r;
+    if (color === "signed-strain") return stretch / r;
     if (own.cord && stretch < 0) return 0;
-    if (colour === "energy") return 0.5 * own.k * stretch * stretch;
+    if (color === "energy") return 0.5 * own.k * stretch * stretch;
     if (L === 0) return 0;
     const rate = ((v[a] - v[b]) * ex + (v[a + 1] - v[b + 1]) * ey + (v[a + 2] - v[b + 2]) * ez) / L;
     this.pull = (own.k * stretch + own.c * rate) / L;
@@ -88,26 +88,26 @@ class Springs {
   }
 
   // The same of a particle.
-  particleValue(colour, p, x, v) {
-    if (colour === "speed") return Math.hypot(v[3 * p], v[3 * p + 1], v[3 * p + 2]);
+  particleValue(color, p, x, v) {
+    if (color === "speed") return Math.hypot(v[3 * p], v[3 * p + 1], v[3 * p + 2]);
     const from = this.starts[p], to = this.starts[p + 1], force = [0, 0, 0];
     let sum = 0;
     for (let i = from; i < to; ++i) {
       const s = this.incident[i];
       this.pull = 0;
-      const value = this.value(colour, s, x, v);
+      const value = this.value(color, s, x, v);
       sum += value;
-      if (colour !== "force" || value === 0) continue;
+      if (color !== "force" || value === 0) continue;
       const other = this.a[s] === p ? this.b[s] : this.a[s];
       for (let c = 0; c < 3; ++c) force[c] += this.pull * (x[3 * other + c] - x[3 * p + c]);
     }
-    if (colour === "force") return Math.hypot(...force);
-    if (colour === "energy") return 0.5 * sum;
+    if (color === "force") return Math.hypot(...force);
+    if (color === "energy") return 0.5 * sum;
     return to > from ? sum / (to - from) : 0;
   }
 }
 
-// Positions and velocities of a run between its pictures: cubic, with the mean speed of the two intervals at each.
+// Positions and velocities of a run between its images: cubic, with the mean speed of the two intervals at each.
 class Motion {
   constructor(run) {
     this.run = run;
@@ -117,9 +117,9 @@ class Motion {
     this.turns = new Float32Array(4 * run.facts.balls.length);
   }
 
-  at({ picture, share }) {
+  at({ image, share }) {
     const { run } = this, last = run.positions.length - 1;
-    const f = [picture - 1, picture, picture + 1, picture + 2].map((i) => clamp(i, 0, last));
+    const f = [image - 1, image, image + 1, image + 2].map((i) => clamp(i, 0, last));
     // A run that stood still, diverged, has no speed.
     const rate = (i, j) => (run.times[j] > run.times[i] ? 1 / (run.times[j] - run.times[i]) : 0);
     this.mix(run.positions, this.x, f, share, rate, this.v);
@@ -132,8 +132,8 @@ class Motion {
     for (let i = 0; i < q.length; ++i) this.turns[i] = q[i] + share * (r[i] - q[i]);
   }
 
-  mix(pictures, x, [a, b, c, d], s, rate, v) {
-    const xa = pictures[a], xb = pictures[b], xc = pictures[c], xd = pictures[d];
+  mix(images, x, [a, b, c, d], s, rate, v) {
+    const xa = images[a], xb = images[b], xc = images[c], xd = images[d];
     const before = rate(a, c), after = rate(b, d), dt = this.run.times[c] - this.run.times[b];
     if (s === 0) x.set(xb);
     const h1 = s * s * (3 - 2 * s), g0 = dt * s * (1 - s) ** 2, g1 = dt * s * s * (s - 1);

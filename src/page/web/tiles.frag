@@ -1,6 +1,6 @@
 // The ground's texture, 4 × 4 tiles that repeat: ground_texels() of src/render/terrain_mesh.cpp.
 in vec2 on_screen;
-out vec4 colour;
+out vec4 color;
 
 float hashed(uint x, uint y, uint salt) {
   uint h = x * 0x9e3779b1u ^ y * 0x85ebca77u ^ salt * 0xc2b2ae3du;
@@ -26,5 +26,5 @@ void main() {
   for (uint octave = 0u; octave < 5u; ++octave, strength *= 0.6) grain += strength * noise(at, 8u << octave, octave);
   float shade = ((tile.x + tile.y) % 2u == 0u ? 0.045 : -0.045) + 0.05 * (hashed(tile.x, tile.y, 77u) - 0.5);
   float joint = 1.0 - 0.38 * clamp(1.0 - (to_joint - 0.006) / 0.008, 0.0, 1.0);
-  colour = vec4((0.47 + shade * 0.9 + 0.022 * grain) * joint * vec3(1.02, 1.0, 0.965), 1.0);
+  color = vec4((0.47 + shade * 0.9 + 0.022 * grain) * joint * vec3(1.02, 1.0, 0.965), 1.0);
 }

@@ -102,7 +102,7 @@ class Balls {
  private:
   /// Particles next to each other in number, which are mostly so in space: a box around them is far from all
   /// balls, or each of them looks for its own.
-  static constexpr std::uint32_t neighbourhood = 64;
+  static constexpr std::uint32_t neighborhood = 64;
   static constexpr std::uint32_t no_ball = 0xffffffffu;
   using Counts = std::vector<std::uint32_t>;
   /// What balls receive in a phase.
@@ -250,8 +250,8 @@ void Balls<T, Search>::find_contacts(std::uint64_t step, const BallPhase<T>& bal
   particle_ball_.clear();
   in_contact_.clear();
   const auto count = static_cast<std::uint32_t>(search.empty() ? 0 : particle_weight_.size());
-  for (std::uint32_t first = 0; first < count; first += neighbourhood) {
-    const std::uint32_t end = std::min(count, first + neighbourhood);
+  for (std::uint32_t first = 0; first < count; first += neighborhood) {
+    const std::uint32_t end = std::min(count, first + neighborhood);
     if (!search.any_near(box_of(particles, first, end))) continue;
     for (std::uint32_t p = first; p < end; ++p) {
       const Vector<T> x = particles.position(p);

@@ -65,7 +65,7 @@ void apply_ball_friction(const BallBody<T>& ball, T friction, T gain, const Vect
 }
 
 /// A ball against one terrain at the end of a step, by the course model: as a particle with its surface in
-/// place of its centre; with spin, friction is added.
+/// place of its center; with spin, friction is added.
 template <class T>
 void respond_ball_course(const Ground<T>& ground, const BallRules<T>& rules, const BallBody<T>& ball,
                          const Vector<T>& x, Vector<T>& v, Vector<T>& omega) {
@@ -92,7 +92,7 @@ Vector<T> with_ball_reaction(const Ground<T>& ground, const BallRules<T>& rules,
 }
 
 /// A ball against one terrain at the end of a step that began at x0, v0, by the Coulomb model: as a particle
-/// with its surface in place of its centre. With spin, f is the force in the step's evaluations, gravity and
+/// with its surface in place of its center. With spin, f is the force in the step's evaluations, gravity and
 /// the reactions of the terrains before, to which this one's is added: what the reaction gave to the normal
 /// speed counts as normal impulse for friction.
 template <class T>
@@ -132,8 +132,8 @@ void respond_ball_coulomb(const Ground<T>& ground, const BallRules<T>& rules, co
   if (g.d < T(0)) x = x - g.d * g.n;
 }
 
-/// Two bodies as one of them sees it: e = its centre − the other's, `reach` = the sum of the radii. Where the
-/// centres coincide the normal is (0, 1, 0) for one of them, `up`, and (0, −1, 0) for the other.
+/// Two bodies as one of them sees it: e = its center − the other's, `reach` = the sum of the radii. Where the
+/// centers coincide the normal is (0, 1, 0) for one of them, `up`, and (0, −1, 0) for the other.
 template <class T>
 Gap<T> pair_gap(const Vector<T>& e, T reach, bool up) {
   const T L = norm3<T>(e);

@@ -62,7 +62,7 @@ int main() {
   Counter counter;
   aspic::FrameSink& sink = counter;
   if (dynamic_cast<Counter*>(&sink) == nullptr || !sink.finish()) return 16;
-  if (!aspic::find_film_format("mp4")) return 17;
+  if (!aspic::find_video_format("mp4")) return 17;
   aspic::InputLog log;
   log.set(12, {{pull, pull}, {1}, {}, {0.5}});
   const std::string text = aspic::to_toml(log, scene->model.simulation.timestep);
