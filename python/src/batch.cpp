@@ -26,9 +26,9 @@ std::size_t count_of(const Model& model, std::size_t field) {
 
 Error differ(std::size_t instance, std::size_t first, std::size_t count) {
   return {ErrorCode::usage,
-          "an array of all instances needs as many particles or balls in each: instance 0 has " +
+          "arrays of all instances need equal numbers of particles or balls: instance 0 has " +
               std::to_string(first) + ", instance " + std::to_string(instance) + " has " +
-              std::to_string(count) + ". Read them one by one: batch[i]"};
+              std::to_string(count) + ". Read the instances one by one: batch[i]"};
 }
 
 }  // namespace
@@ -65,9 +65,9 @@ std::size_t Batch::advance(std::uint64_t steps) {
     const auto begin = Clock::now();
     const std::size_t diverged = take(contents.batch.advance(steps));
     if (stop_)
-      throw LibraryError(
-          {ErrorCode::interrupted,
-           "the batch was stopped: every instance is at the end of a step, not all of the same"});
+      throw LibraryError({ErrorCode::interrupted,
+                          "stop() interrupted the batch; instances may be at different steps. batch.steps "
+                          "has their numbers"});
     // Those that are diverged take no time, and may go on later.
     const bool brief = diverged == 0 && Clock::now() - begin < std::chrono::milliseconds(25);
     brief_ = brief ? steps : 0;

@@ -109,40 +109,42 @@ void reset(Batch& batch, const std::optional<Mask>& mask) {
 }  // namespace
 
 void bind_batch(nb::module_& module) {
-  nb::class_<Instance> instance(module, "Instance", "One of a batch.");
+  nb::class_<Instance> instance(module, "Instance", "One instance of a batch.");
   bind_reading(instance);
   instance
       .def(
           "load", [](Instance& i, const State& state, const InputLog* log) { i.load(state, log); },
-          nb::arg("state"), nb::arg("log").none(), "Takes over a state, with its inputs.")
-      .def("log", &Instance::log, "The present inputs.")
-      .def("set_scene", &Instance::set_scene, nb::arg("scene"), "Other constants.")
+          nb::arg("state"), nb::arg("log").none(), "Load a state and its inputs.")
+      .def("log", &Instance::log, "Return the present inputs.")
+      .def("set_scene", &Instance::set_scene, nb::arg("scene"), "Replace the constants of the scene.")
       .def(
-          "divergence", [](Instance& i) { return told(i.divergence()); }, "What diverged.");
-  nb::class_<Batch>(module, "Batch", "Scenes that are stepped together.")
+          "divergence", [](Instance& i) { return told(i.divergence()); },
+          "Divergence of the instance; None without one.");
+  nb::class_<Batch>(module, "Batch", "Scenes that advance together.")
       .def(nb::init<std::vector<Scene>, const std::vector<std::size_t>&, unsigned>(), nb::arg("scenes"),
            nb::arg("which"), nb::arg("threads"))
       .def(
           "description", [](Batch& b) { return b.alone([](Contents& c) { return c.batch.description(); }); },
-          "A line.")
+          "Backend and layout, in one line.")
       .def(
           "bytes", [](Batch& b) { return b.alone([](Contents& c) { return c.batch.bytes(); }); },
-          "Of memory.")
+          "Memory in use [bytes].")
       .def(
           "instance", [](Batch& b, std::size_t number) { return Instance(b, number); }, nb::arg("number"),
-          nb::keep_alive<0, 1>(), "One, by a number that there is.")
-      .def("advance", &Batch::advance, nb::arg("steps"), "Steps; how many are diverged.")
-      .def("stop", &Batch::stop, "Ends what goes on in another thread.")
+          nb::keep_alive<0, 1>(), "Return an instance by its number, which must exist.")
+      .def("advance", &Batch::advance, nb::arg("steps"),
+           "Advance all instances; return how many have diverged.")
+      .def("stop", &Batch::stop, "Interrupt advance() or run() in another thread.")
       .def("run", &run, nb::arg("duration"), nb::arg("interval"), nb::arg("center_of_mass"),
            nb::arg("momentum"), nb::arg("energies"), nb::arg("work"), nb::arg("body").none(),
-           "Steps and records.")
-      .def("reset", &reset, nb::arg("mask").none(), "To the start.")
-      .def("steps", &steps, "Of each, since its start.")
-      .def("times", &times, "Of each [s].")
-      .def("diverged", &diverged, "The step that failed, of each; 0: none.")
-      .def("hashes", &hashes, "Of each.")
-      .def("bodies", &bodies, "Names, of each.")
-      .def("gather", &gather, nb::arg("field"), "A field of all, (n, p, 3).");
+           "Advance all instances and record them.")
+      .def("reset", &reset, nb::arg("mask").none(), "Reset instances to step 0.")
+      .def("steps", &steps, "Return the steps since the start, (n,).")
+      .def("times", &times, "Return the times, (n,) [s].")
+      .def("diverged", &diverged, "Return the steps that failed, (n,); 0: none.")
+      .def("hashes", &hashes, "Return the state hashes, (n,).")
+      .def("bodies", &bodies, "Return the names of the bodies of each instance.")
+      .def("gather", &gather, nb::arg("field"), "Return a field of all instances, (n, p, 3).");
 }
 
 }  // namespace aspic::python

@@ -64,12 +64,12 @@ class Export {
 }  // namespace
 
 void bind_export(nb::module_& module) {
-  nb::class_<Export>(module, "Export", "A motion on its way into files, by their ending.")
+  nb::class_<Export>(module, "Export", "A motion that is written to files, in the format of their ending.")
       .def(nb::init<const Scene&, const std::string&, bool>(), nb::arg("scene"), nb::arg("path"),
            nb::arg("overwrite"))
-      .def("add", &Export::add, nb::arg("simulation"), "A sample: the state as it is.")
-      .def("add_state", &Export::add_state, nb::arg("state"), "A sample.")
-      .def("finish", &Export::finish, nb::arg("warnings"), "Completes the files.");
+      .def("add", &Export::add, nb::arg("simulation"), "Add the present state as a sample.")
+      .def("add_state", &Export::add_state, nb::arg("state"), "Add a state as a sample.")
+      .def("finish", &Export::finish, nb::arg("warnings"), "Complete the files.");
 }
 
 }  // namespace aspic::python

@@ -34,10 +34,10 @@ NB_MODULE(_aspic, module) {
   using namespace aspic::python;
   // At the interpreter's end modules may still hold simulations.
   nb::set_leak_warnings(false);
-  module.doc() = "libaspic for the package aspic, which is its interface.";
+  module.doc() = "Bindings of libaspic for the package aspic.";
   module.attr("version") = ASPIC_VERSION;
   register_errors();
-  module.def("end", &Unlocked::end, "For atexit.");
+  module.def("end", &Unlocked::end, "End running calls; for atexit.");
   bind_scene(module);
   bind_state(module);
   bind_simulation(module);

@@ -77,50 +77,54 @@ void bind_reading(nb::class_<T>& bound) {
   bound.def_prop_ro("scene", &T::scene, "As it is simulated.")
       .def_prop_ro("step", &T::step, "Steps since the start.")
       .def_prop_ro("doubles", &T::doubles, "Whether it computes in double precision.")
-      .def("state", &T::state, "A copy.")
+      .def("state", &T::state, "Return a copy of the state.")
       .def(
           "measures", [](T& t) { return row_of(t.measures()); },
-          "Kinetic, elastic, gravitational, momentum, largest speed, lowest height.")
+          "Return kinetic, elastic and gravitational energy, momentum, largest speed and lowest height.")
       .def(
           "motion", [](T& t) { return row_of(t.motion()); },
-          "The same with an elastic energy of 0: neither springs nor contacts are looked at.")
-      .def("add_work", &T::add_work, nb::arg("work"), "The work of actuators so far.")
+          "Return the measures with an elastic energy of 0, without a pass over springs and contacts.")
+      .def("add_work", &T::add_work, nb::arg("work"), "Return the work of actuators so far [J].")
       .def(
           "quantities", [](T& t) { return arrays_of(t.quantities()); },
-          "Speed, mean strain, force, contact force and contact of particles; strain and tension of springs.")
+          "Return speed, mean strain, force, contact force and contact of particles; strain and tension of "
+          "springs.")
       .def(
           "read_into",
           [](T& t, std::size_t field, const Place<float>& out) { return t.read_into(view_at(field, out)); },
-          nb::arg("field"), nb::arg("out").noconvert(), "Reads a field; its step.")
+          nb::arg("field"), nb::arg("out").noconvert(), "Read a field into an array; return its step.")
       .def(
           "read_into",
           [](T& t, std::size_t field, const Place<double>& out) { return t.read_into(view_at(field, out)); },
-          nb::arg("field"), nb::arg("out").noconvert(), "Reads a field; its step.")
+          nb::arg("field"), nb::arg("out").noconvert(), "Read a field into an array; return its step.")
       .def(
-          "masses", [](T& t) { return masses(*t.model()); }, "[kg].")
+          "masses", [](T& t) { return masses(*t.model()); }, "Return the masses, (n,) [kg].")
       .def(
-          "pinned", [](T& t) { return pinned(*t.model()); }, "Indices that the scene pins.")
+          "pinned", [](T& t) { return pinned(*t.model()); },
+          "Return the indices of particles that the scene pins.")
       .def(
           "springs", [](T& t) { return springs(*t.model()); },
-          "Arrays: ends, stiffness, damping, rest length, type, cord.")
+          "Return arrays of springs: ends, stiffness, damping, rest length, type, cord.")
       .def(
           "surface", [](T& t, std::size_t body) { return surface(*t.model(), body); }, nb::arg("body"),
-          "Four corners each.")
+          "Return quads of the surface, (m, 4).")
       .def(
           "mesh", [](T& t, std::size_t body) { return mesh(*t.model(), body); }, nb::arg("body"),
-          "Corners and weights of vertices, vertices of triangles.")
+          "Return corners and weights of vertices, and vertices of triangles.")
       .def(
-          "ranges", [](T& t) { return ranges(*t.model()); }, "First particle and count of each body.")
+          "ranges", [](T& t) { return ranges(*t.model()); }, "Return first particle and count of each body.")
       .def(
-          "input_names", [](T& t) { return input_names(*t.model()); }, "Of the actuators that read channels.")
+          "input_names", [](T& t) { return input_names(*t.model()); },
+          "Return the names of the actuators that read channels.")
       .def(
-          "balls", [](T& t) { return balls(*t.model()); }, "Radius, mass and launch step of each ball.")
-      .def("update", &T::update, nb::arg("overrides"), "Other constants.")
+          "balls", [](T& t) { return balls(*t.model()); },
+          "Return radius, mass and launch step of each ball.")
+      .def("update", &T::update, nb::arg("overrides"), "Change constants.")
       .def(
-          "inputs", [](T& t) { return rows_of(t.inputs()); }, "Pulls, pins, releases, channels.")
+          "inputs", [](T& t) { return rows_of(t.inputs()); }, "Return pulls, pins, releases and channels.")
       .def(
           "set_inputs", [](T& t, const InputRows& rows) { t.set_inputs(inputs_of_rows(rows)); },
-          nb::arg("rows"), "From this step on.");
+          nb::arg("rows"), "Set the inputs from this step on.");
 }
 
 }  // namespace aspic::python

@@ -90,42 +90,45 @@ std::tuple<std::optional<double>, bool> stable_step(const Scene& scene, bool tho
 }  // namespace
 
 void bind_scene(nb::module_& module) {
-  module.def("builtin_scenes", &builtin_scenes, "Name, description and heading of each.");
-  module.def("parameters", &rows, "Path, meaning, unit, allowed values, default, live: of each key.");
-  module.def("backend_words", &backend_words, "The words that a backend may be named by.");
-  nb::class_<Scene>(module, "Scene", "A scene as the library holds it. It never changes.")
+  module.def("builtin_scenes", &builtin_scenes,
+             "Return name, description and heading of each built-in scene.");
+  module.def("parameters", &rows,
+             "Return path, meaning, unit, allowed values, default and live of each key.");
+  module.def("backend_words", &backend_words, "Return the names of backends.");
+  nb::class_<Scene>(module, "Scene", "An immutable scene of the library.")
       .def_static(
           "load",
           [](const std::string& name, const Words& overrides) {
             return read([&](const LoadOptions& options) { return load_scene(name, overrides, options); });
           },
-          nb::arg("name"), nb::arg("overrides"), "Reads a file or a built-in scene; with notes.")
+          nb::arg("name"), nb::arg("overrides"), "Read a file or a built-in scene; return it with notes.")
       .def_static(
           "parse",
           [](const std::string& text, const std::string& name, const Words& overrides) {
             return read(
                 [&](const LoadOptions& options) { return parse_scene(text, name, overrides, options); });
           },
-          nb::arg("text"), nb::arg("name"), nb::arg("overrides"), "Reads TOML; with notes.")
+          nb::arg("text"), nb::arg("name"), nb::arg("overrides"), "Read TOML; return a scene with notes.")
       .def(
           "with_overrides",
           [](const Scene& scene, const Words& overrides) {
             return read(
                 [&](const LoadOptions& options) { return with_overrides(scene, overrides, options); });
           },
-          nb::arg("overrides"), "The scene with arguments of --set; with notes.")
+          nb::arg("overrides"), "Return the scene with arguments of --set, and notes.")
       .def(
           "with_view", [](const Scene& scene, const Words& keys) { return take(with_view(scene, keys)); },
-          nb::arg("arguments"), "The scene with arguments of --view.")
+          nb::arg("arguments"), "Return the scene with arguments of --view.")
       .def(
           "value",
           [](const Scene& scene, const std::string& key) {
             const auto value = take(value_of(scene, key));
             return value ? as_object(*value) : nb::none();
           },
-          nb::arg("key"), "The value of a key; None where it is absent.")
+          nb::arg("key"), "Return the value of a key; None where it is absent.")
       .def(
-          "keys", [](const Scene& scene) { return list_keys(scene); }, "Every key that has a meaning.")
+          "keys", [](const Scene& scene) { return list_keys(scene); },
+          "Keys that have a meaning in the scene.")
       .def(
           "bodies", [](const Scene& scene) { return body_names(scene.model); }, "Names of the bodies.")
       .def(
@@ -133,11 +136,11 @@ void bind_scene(nb::module_& module) {
       .def("stable_step", &stable_step, nb::arg("thorough"),
            "The largest stable time step [s], and whether it is exact.")
       .def_prop_ro(
-          "name", [](const Scene& scene) { return scene.name; }, "For titles.")
+          "name", [](const Scene& scene) { return scene.name; }, "Name of the scene.")
       .def_prop_ro(
-          "timestep", [](const Scene& scene) { return scene.model.simulation.timestep; }, "h [s].")
+          "timestep", [](const Scene& scene) { return scene.model.simulation.timestep; }, "Time step h [s].")
       .def_prop_ro(
-          "duration", [](const Scene& scene) { return scene.model.simulation.duration; }, "[s].");
+          "duration", [](const Scene& scene) { return scene.model.simulation.duration; }, "Duration [s].");
 }
 
 }  // namespace aspic::python

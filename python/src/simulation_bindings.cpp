@@ -82,11 +82,13 @@ Resumed read_resumed(const std::string& path) {
 }  // namespace
 
 void bind_simulation(nb::module_& module) {
-  module.def("read_checkpoint", &read_resumed, nb::arg("path"), "Scene, state and inputs of a file.");
-  nb::class_<InputLog>(module, "InputLog", "The inputs of a run by step.")
+  module.def("read_checkpoint", &read_resumed, nb::arg("path"),
+             "Return scene, state and inputs of a checkpoint.");
+  nb::class_<InputLog>(module, "InputLog", "Inputs of a run by step.")
       .def_prop_ro(
-          "hash", [](const InputLog& log) { return log.hash_text(); }, "16 hexadecimal digits.");
-  nb::class_<ActuatorWork>(module, "ActuatorWork", "Adds up what actuators do over states of a run.")
+          "hash", [](const InputLog& log) { return log.hash_text(); }, "Hash, 16 hexadecimal digits.");
+  nb::class_<ActuatorWork>(module, "ActuatorWork",
+                           "Work of actuators [J], accumulated over the states of a run.")
       .def(nb::init<>());
   nb::class_<Simulation> bound(module, "Simulation", "A scene, a solver and the inputs so far.");
   bind_reading(bound);
@@ -96,20 +98,21 @@ void bind_simulation(nb::module_& module) {
       .def_prop_ro(
           "variant", [](const Simulation& s) { return s.backend().variant(); }, "Backend and options.")
       .def_prop_ro(
-          "device", [](const Simulation& s) { return s.backend().device; }, "What computes.")
+          "device", [](const Simulation& s) { return s.backend().device; }, "Name of the device.")
       .def_prop_ro(
-          "reason", [](const Simulation& s) { return s.backend().reason; }, "Why auto took it.")
+          "reason", [](const Simulation& s) { return s.backend().reason; },
+          "Reason for which auto selected the backend.")
       .def(
           "load", [](Simulation& s, const State& state, const InputLog* log) { s.load(state, log); },
-          nb::arg("state"), nb::arg("log").none(), "Takes over a state, with its inputs.")
+          nb::arg("state"), nb::arg("log").none(), "Load a state and its inputs.")
       .def(
           "advance",
           [](Simulation& s, std::uint64_t steps) {
             const Advance made = s.advance(steps);
             return std::make_tuple(made.steps, told(made.divergence), made.stopped);
           },
-          nb::arg("steps"), "Steps made, what diverged, whether stop() ended them.")
-      .def("stop", &Simulation::stop, "Ends what goes on in another thread.")
+          nb::arg("steps"), "Advance; return the steps made, the divergence, and whether stop() ended it.")
+      .def("stop", &Simulation::stop, "Interrupt a run in another thread.")
       .def(
           "solves",
           [](Simulation& s) -> std::optional<SolveRow> {
@@ -118,27 +121,29 @@ void bind_simulation(nb::module_& module) {
             return SolveRow(all->steps, all->converged, all->stagnated, all->not_converged,
                             all->newton_iterations, all->cg_iterations, all->worst_residual);
           },
-          "Figures of implicit Euler; None with other integrators.")
-      .def("warnings", &Simulation::warnings, "Kinds, bodies, steps and sentences.")
-      .def("new_warnings", &Simulation::new_warnings, "Those since the last call.")
+          "Statistics of implicit Euler solves; None with other integrators.")
+      .def("warnings", &Simulation::warnings, "Return kinds, bodies, steps and sentences of warnings.")
+      .def("new_warnings", &Simulation::new_warnings, "Return the warnings since the last call.")
       .def("compare", &Simulation::compare, nb::arg("other"), nb::arg("steps"),
-           "The first step that differs.")
-      .def("view", &view, nb::arg("field"), "A field in the solver's memory; None on a device.")
+           "Return the first step that differs.")
+      .def("view", &view, nb::arg("field"), "Return a field in the solver's memory; None on a device.")
       .def("image", &image, nb::arg("view"), nb::arg("width"), nb::arg("height"), nb::arg("text"),
-           "(height, width, 3).")
+           "Render the state, (height, width, 3) of uint8.")
       .def("video", &video, nb::arg("path"), nb::arg("steps"), nb::arg("fps").none(), nb::arg("speed"),
-           nb::arg("width"), nb::arg("height"), nb::arg("text"), nb::arg("overwrite"), "Steps and videos.")
+           nb::arg("width"), nb::arg("height"), nb::arg("text"), nb::arg("overwrite"),
+           "Advance and record a video.")
       .def("page", &page, nb::arg("path"), nb::arg("steps"), nb::arg("fps").none(), nb::arg("speed"),
-           nb::arg("live"), nb::arg("overwrite"), nb::arg("command"), "Steps and writes a page for browsers.")
-      .def("log", &Simulation::log, "Of all steps.")
-      .def("set_log", &Simulation::set_log, nb::arg("log"), "Replaces it.")
-      .def("log_text", &Simulation::log_text, "As TOML.")
-      .def("parse_log", &parsed, nb::arg("text"), nb::arg("name"), "A log from TOML.")
-      .def("read_log", &read_log, nb::arg("path"), "A log from a file.")
+           nb::arg("live"), nb::arg("overwrite"), nb::arg("command"),
+           "Advance and write a page for browsers.")
+      .def("log", &Simulation::log, "Return the inputs of all steps.")
+      .def("set_log", &Simulation::set_log, nb::arg("log"), "Replace the inputs.")
+      .def("log_text", &Simulation::log_text, "Return the inputs as TOML.")
+      .def("parse_log", &parsed, nb::arg("text"), nb::arg("name"), "Read inputs from TOML.")
+      .def("read_log", &read_log, nb::arg("path"), "Read inputs from a file.")
       .def("write_state", &Simulation::write_state, nb::arg("path"), nb::arg("overwrite"),
-           "As its ending says.")
+           "Write the state in the format of the ending.")
       .def("write_checkpoint", &Simulation::write_checkpoint, nb::arg("path"), nb::arg("overwrite"),
-           "To be resumed.");
+           "Write a checkpoint.");
 }
 
 }  // namespace aspic::python

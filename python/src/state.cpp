@@ -64,7 +64,7 @@ std::vector<QuantityRow> compare(const State& a, const State& b) {
 }  // namespace
 
 void bind_state(nb::module_& module) {
-  module.def("compare_states", &compare, nb::arg("a"), nb::arg("b"), "Where two states differ most.");
+  module.def("compare_states", &compare, nb::arg("a"), nb::arg("b"), "Return where two states differ most.");
   nb::class_<State>(module, "State", "Positions and velocities after a number of steps.")
       .def(
           "__init__",
@@ -75,15 +75,16 @@ void bind_state(nb::module_& module) {
           },
           nb::arg("step"), nb::arg("doubles"))
       .def(
-          "copy", [](const State& state) { return state; }, "Another one.")
-      .def("read", &read_field, nb::arg("field"), "A field, (n, 3), float64.")
-      .def("write", &write_field, nb::arg("field"), nb::arg("numbers"), "Replaces a field.")
+          "copy", [](const State& state) { return state; }, "Return a copy.")
+      .def("read", &read_field, nb::arg("field"), "Return a field, (n, 3) of float64.")
+      .def("write", &write_field, nb::arg("field"), nb::arg("numbers"), "Replace a field, (n, 3).")
       .def_rw("step", &State::step, "Steps since the start.")
       .def_prop_ro(
           "doubles", [](const State& state) { return state.precision == Precision::double_; },
-          "Whether it was computed in double precision.")
+          "True for states of double precision.")
       .def_prop_ro(
-          "hash", [](const State& state) { return state_hash_text(state); }, "16 hexadecimal digits.");
+          "hash", [](const State& state) { return state_hash_text(state); },
+          "State hash, 16 hexadecimal digits.");
 }
 
 }  // namespace aspic::python

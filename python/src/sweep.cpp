@@ -50,16 +50,16 @@ void take_state(RunFigures& figures, T& from) {
 void bind_sweep(nb::module_& module) {
   nb::class_<SweepRun>(module, "SweepRun", "A run of a sweep.")
       .def_ro("key", &SweepRun::key, "32 hexadecimal digits, equal for equal runs on every machine.")
-      .def_ro("scene", &SweepRun::scene, "With the differences; that of a rejected run is of no use.")
+      .def_ro("scene", &SweepRun::scene, "Scene with the differences; undefined for a rejected run.")
       .def_prop_ro(
           "timestep", [](const SweepRun& run) { return run.scene.model.simulation.timestep; },
           "Time step [s].")
-      .def_ro("backend", &SweepRun::backend_words, "As it was asked for.")
+      .def_ro("backend", &SweepRun::backend_words, "Backend as requested.")
       .def_prop_ro(
           "doubles", [](const SweepRun& run) { return run.backend.precision == Precision::double_; },
-          "Whether it is in double precision.")
-      .def_ro("steps", &SweepRun::steps, "To be made.")
-      .def_ro("particles", &SweepRun::particles, "That are moved.")
+          "True for double precision.")
+      .def_ro("steps", &SweepRun::steps, "Steps of the run.")
+      .def_ro("particles", &SweepRun::particles, "Particles that move.")
       .def_prop_ro(
           "error",
           [](const SweepRun& run) {
@@ -68,7 +68,7 @@ void bind_sweep(nb::module_& module) {
               error.emplace(static_cast<int>(run.error->code), worded(*run.error, FrontEnd::python));
             return error;
           },
-          "Code and message of a run that was rejected.")
+          "Code and message of a rejected run.")
       .def(
           "file",
           [](const SweepRun& run, const std::string& scene, const std::string& outcome, std::string reason,
@@ -82,16 +82,17 @@ void bind_sweep(nb::module_& module) {
           },
           nb::arg("scene"), nb::arg("outcome"), nb::arg("reason"), nb::arg("figures").none() = nb::none(),
           nb::arg("steps") = 0, nb::arg("hash") = "", nb::arg("solver") = "", nb::arg("seconds") = 0.0,
-          "The run's file, JSON; of one that was not made, without figures.");
+          "Return the run's file as JSON; without metrics for a run that failed.");
   module.def("sweep_run", &run_of, nb::arg("scene"), nb::arg("backend"), nb::arg("doubles").none(),
              nb::arg("differences"), nb::arg("steps").none(), nb::arg("duration").none(),
-             "The run of a scene with differences.");
-  nb::class_<RunFolder>(module, "RunFolder", "Finished runs, a file each.")
+             "Return the run of a scene with differences.");
+  nb::class_<RunFolder>(module, "RunFolder", "Folder of finished runs, one file each.")
       .def(nb::init<std::string>(), nb::arg("path"))
       .def(
           "make", [](const RunFolder& folder, const Scene& scene) { check(folder.make(scene)); },
-          nb::arg("scene"), "Makes the folder, with the scene that its runs differ from.")
-      .def("read", &RunFolder::read, nb::arg("key"), "None: missing, damaged or no regular file.")
+          nb::arg("scene"), "Create the folder and the file of its base scene.")
+      .def("read", &RunFolder::read, nb::arg("key"),
+           "Read a run; None if the file is missing, damaged or not regular.")
       .def(
           "write",
           [](const RunFolder& folder, const std::string& key, const std::string& ending, nb::bytes content) {
@@ -99,20 +100,19 @@ void bind_sweep(nb::module_& module) {
             const Unlocked others;
             check(folder.write(key, ending, bytes));
           },
-          nb::arg("key"), nb::arg("ending"), nb::arg("content"), "Keeps the file KEY.ENDING.")
-      .def("file", &RunFolder::file, nb::arg("key"), nb::arg("ending"), "The path of a file.");
-  module.def("scene_key", &scene_key, nb::arg("scene"), "The name of its complete file.");
-  nb::class_<RunFigures>(module, "RunFigures", "The figures of a run, from its states.")
+          nb::arg("key"), nb::arg("ending"), nb::arg("content"), "Write the file KEY.ENDING.")
+      .def("file", &RunFolder::file, nb::arg("key"), nb::arg("ending"), "Return the path of a file.");
+  module.def("scene_key", &scene_key, nb::arg("scene"), "Return the name of the complete file of a scene.");
+  nb::class_<RunFigures>(module, "RunFigures", "Metrics of a run, computed from its states.")
       .def(
           "__init__", [](RunFigures* figures, Simulation& of) { new (figures) RunFigures(of.model()); },
           nb::arg("of"))
       .def(
           "__init__", [](RunFigures* figures, Instance& of) { new (figures) RunFigures(of.model()); },
           nb::arg("of"))
-      .def_static("interval", &RunFigures::interval, nb::arg("timestep"),
-                  "Steps between the states it takes.")
-      .def("take", &take_state<Simulation>, nb::arg("of"), "Takes the state as it is.")
-      .def("take", &take_state<Instance>, nb::arg("of"), "Takes the state as it is.")
+      .def_static("interval", &RunFigures::interval, nb::arg("timestep"), "Steps between samples.")
+      .def("take", &take_state<Simulation>, nb::arg("of"), "Add the present state.")
+      .def("take", &take_state<Instance>, nb::arg("of"), "Add the present state.")
       .def(
           "figures",
           [](const RunFigures& figures) {
@@ -120,7 +120,7 @@ void bind_sweep(nb::module_& module) {
             for (const RunFigure& figure : figures.figures()) all.emplace_back(figure.name, figure.value);
             return all;
           },
-          "Names and values, in the order of columns.");
+          "Return names and values, in the order of columns.");
 }
 
 }  // namespace aspic::python

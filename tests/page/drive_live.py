@@ -78,7 +78,7 @@ def touch(b, where):
     require(get("return aspic.recording.read") == count, f"{where}: with other gravity there are other images")
     require(height(middle) == at_middle, f"{where}: a change has changed the past")
     require(height(falling) > at_falling + 0.2, f"{where}: half of gravity changes nothing")
-    require(say("bits").startswith("Changed at"), f"{where}: a changed run says {say('bits')}")
+    require(say("bits").startswith("You changed values at"), f"{where}: a changed run says {say('bits')}")
     require(say("verdict") == "", f"{where}: a changed run has the verdict {say('verdict')}")
     get("document.getElementById('restart').click()")
     done()

@@ -4,7 +4,7 @@ const $ = (id) => document.getElementById(id);
 // What colors mean: title of the legend, unit, and how many SI units one of it is.
 const quantities = {
   strain: ["strain of the springs", " %", 0.01], "signed-strain": ["strain: − shortened, + stretched", " %", 0.01],
-  actuation: ["rest lengths: − shortened, + stretched", " %", 0.01],
+  actuation: ["change of rest lengths: − shortened, + stretched", " %", 0.01],
   speed: ["speed", " m/s", 1], force: ["force of the springs", " N", 1], energy: ["energy of the springs", " J", 1],
 };
 const colors = ["material", ...Object.keys(quantities).filter((color) => color !== "actuation"), "type", "actuation"];
@@ -51,29 +51,29 @@ function keyTable({ player, camera, look, setColor, setLook, press }) {
   const turn = 0.1;
   return [
     [" ", "Space", "play or pause", () => press("play")],
-    ["ArrowLeft", "←", "one image back; with Shift ten", (shift) => player.step(shift ? -10 : -1)],
-    ["ArrowRight", "→", "one image on; with Shift ten", (shift) => player.step(shift ? 10 : 1)],
-    ["Home", "Home", "to the start", () => player.seek(-Infinity)],
-    ["End", "End", "to the end", () => player.seek(Infinity)],
+    ["ArrowLeft", "←", "one frame back; with Shift, ten", (shift) => player.step(shift ? -10 : -1)],
+    ["ArrowRight", "→", "one frame forward; with Shift, ten", (shift) => player.step(shift ? 10 : 1)],
+    ["Home", "Home", "go to the start", () => player.seek(-Infinity)],
+    ["End", "End", "go to the end", () => player.seek(Infinity)],
     ["[", "[", "slower", () => player.faster(-1)],
     ["]", "]", "faster", () => player.faster(1)],
-    ["l", "L", "loop on or off", () => press("loop")],
+    ["l", "L", "repeat the run or not", () => press("loop")],
     ["a", "A", "turn the camera left", () => camera.orbit(turn, 0)],
-    ["d", "D", "turn it right", () => camera.orbit(-turn, 0)],
-    ["w", "W", "raise it", () => camera.orbit(0, turn)],
-    ["s", "S", "lower it", () => camera.orbit(0, -turn)],
+    ["d", "D", "turn the camera right", () => camera.orbit(-turn, 0)],
+    ["w", "W", "raise the camera", () => camera.orbit(0, turn)],
+    ["s", "S", "lower the camera", () => camera.orbit(0, -turn)],
     ["+", "+", "zoom in", () => camera.zoom(0.9)],
     ["-", "−", "zoom out", () => camera.zoom(1 / 0.9)],
     ["r", "R", "reset the view", () => camera.reset()],
-    ["b", "B", "surfaces on or off", () => setLook("solid", !look.solid)],
-    ["k", "K", "springs on or off", () => types.forEach((type, i, all) => setLook(type, !all.slice(0, i).concat(type).some((t) => look[t])))],
-    ["p", "P", "particles on or off", () => setLook("particles", !look.particles)],
-    ["x", "X", "axes on or off", () => setLook("axes", !look.axes)],
-    ...colors.map((color, i) => [String(i + 1), String(i + 1), `colors: ${color.replace("-", " ")}`, () => setColor(color)]),
+    ["b", "B", "show or hide surfaces", () => setLook("solid", !look.solid)],
+    ["k", "K", "show or hide springs", () => types.forEach((type, i, all) => setLook(type, !all.slice(0, i).concat(type).some((t) => look[t])))],
+    ["p", "P", "show or hide particles", () => setLook("particles", !look.particles)],
+    ["x", "X", "show or hide axes", () => setLook("axes", !look.axes)],
+    ...colors.map((color, i) => [String(i + 1), String(i + 1), `color by ${color.replace("-", " ")}`, () => setColor(color)]),
     ...($("copy").hidden ? [] : [["c", "C", "copy the command", () => press("copy")]]),
-    ["t", "T", "light or dark", () => press("theme")],
-    ...($("live").hidden ? [] : [["n", "N", "restart with the values that are set", () => press("restart")]]),
-    ["?", "?", "this list", () => press("help")],
+    ["t", "T", "switch between light and dark", () => press("theme")],
+    ...($("live").hidden ? [] : [["n", "N", "restart with the present values", () => press("restart")]]),
+    ["?", "?", "show this list", () => press("help")],
   ];
 }
 

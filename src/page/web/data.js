@@ -22,7 +22,7 @@ class Inflated {
     for (let have = 0; have < count;) {
       if (this.at === this.chunk.length) {
         const next = await this.reader.read();
-        if (next.done) throw new Error("The data of this page end early.");
+        if (next.done) throw new Error("This page is incomplete: its data end early. Copy or download it again.");
         this.chunk = next.value;
         this.at = 0;
         continue;

@@ -2,7 +2,7 @@
 class Device {
   constructor(canvas) {
     const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, powerPreference: "high-performance" });
-    if (!gl) throw new Error("This browser has no WebGL 2, which draws the bodies. Energies and parameters are shown without it.");
+    if (!gl) throw new Error("This browser lacks WebGL 2, so bodies are not shown. Energies and parameters are.");
     this.gl = gl;
     this.texts = jsonOf("shaders");
     // Images of 16-bit floats, for shadows and thickness; without them bodies are opaque and cast no shadow.

@@ -122,18 +122,18 @@ class LivePanel {
     const there = recording.machine, here = recording.run.end, last = there.steps.at(-1);
     const hash = here.steps.includes(last) && !recording.changed ? recording.run.hashes[here.steps.indexOf(last)] : "";
     $("hashes").replaceChildren(...rowsOf([
-      ["the machine", there.hash], ["this browser", hash === "" ? (recording.changed ? "another run" : "…") : hash],
-      ["at step", `${last}`]]));
+      ["original machine", there.hash], ["this browser", hash === "" ? (recording.changed ? "another run" : "…") : hash],
+      ["step", `${last}`]]));
     $("verdict").className = other === null && (hash === "" || hash === there.hash) ? "" : "differs";
-    $("verdict").textContent = hash === "" ? "" : hash === there.hash ? "the same" : "not the same";
+    $("verdict").textContent = hash === "" ? "" : hash === there.hash ? "the same" : "different";
   }
 
   said(same, other) {
-    const { recording } = this, count = (n) => `${n} image${n === 1 ? "" : "s"}`;
-    const why = recording.live.sheets ? " Browsers keep denormal numbers, which Aspic sets to zero; they occur in nets and cloth." : "";
-    if (other !== null) return `Other bits than on the machine that made this page, from step ${other} on.${why}`;
-    if (!recording.changed) return `The same bits as on the machine that made this page, in ${same === recording.machine.steps.length ? "all" : "the first"} ${count(same)}.`;
-    return `Changed at ${recording.times[Math.min(recording.changedFrom, recording.times.length - 1)].toFixed(3)} s; until then the same bits as on the machine that made this page.`;
+    const { recording } = this, count = (n) => `${n} frame${n === 1 ? "" : "s"}`;
+    const why = recording.live.sheets ? " Browsers keep denormal numbers, which Aspic sets to zero. They occur in nets and cloth." : "";
+    if (other !== null) return `The bits differ from those of the original machine from step ${other} on.${why}`;
+    if (!recording.changed) return `The bits equal those of the original machine in ${same === recording.machine.steps.length ? "all" : "the first"} ${count(same)}.`;
+    return `You changed values at ${recording.times[Math.min(recording.changedFrom, recording.times.length - 1)].toFixed(3)} s. Until then the bits equal those of the original machine.`;
   }
 }
 

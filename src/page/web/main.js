@@ -91,8 +91,8 @@ class Page {
         ...(end.diverged ? [["", end.diverged]] : [])];
     });
     const error = runs.map((run) => `${shortNumber(500 * run.facts.quantum)} mm`);
-    if (!live) about.push(["images", `${recording.times.length}`], ["positions", `within ${[...new Set(error)].join(", ")} in x, y and z`]);
-    $("about").replaceChildren(...rowsOf([...about, ["made by", facts.program]]));
+    if (!live) about.push(["frames", `${recording.times.length}`], ["positions", `within ${[...new Set(error)].join(", ")} in x, y and z`]);
+    $("about").replaceChildren(...rowsOf([...about, ["program", facts.program]]));
   }
 
   listen() {
@@ -123,7 +123,7 @@ class Page {
     });
     $("copy").addEventListener("click", async () => {
       await copyText(this.recording.facts.command);
-      $("said").textContent = "The command is copied.";
+      $("said").textContent = "Copied the command.";
       setTimeout(() => { $("said").textContent = ""; }, 2000);
     });
     const seek = (event) => {
