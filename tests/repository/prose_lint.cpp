@@ -40,6 +40,47 @@ constexpr Term terms[] = {
     {"are none of", "", "state the fact"},
     {"kept state", "", "window settings"},
 };
+/// Parts of words in British spelling, and the American ones.
+constexpr std::pair<std::string_view, std::string_view> spellings[] = {{"colour", "color"},
+                                                                       {"centre", "center"},
+                                                                       {"centring", "centering"},
+                                                                       {"neighbour", "neighbor"},
+                                                                       {"behaviour", "behavior"},
+                                                                       {"favour", "favor"},
+                                                                       {"honour", "honor"},
+                                                                       {"grey", "gray"},
+                                                                       {"metre", "meter"},
+                                                                       {"fibre", "fiber"},
+                                                                       {"licence", "license"},
+                                                                       {"offence", "offense"},
+                                                                       {"defence", "defense"},
+                                                                       {"artefact", "artifact"},
+                                                                       {"analyse", "analyze"},
+                                                                       {"cancelled", "canceled"},
+                                                                       {"cancelling", "canceling"},
+                                                                       {"labelled", "labeled"},
+                                                                       {"travelled", "traveled"},
+                                                                       {"modelled", "modeled"},
+                                                                       {"anticlockwise", "counterclockwise"},
+                                                                       {"alis", "aliz"},
+                                                                       {"aris", "ariz"},
+                                                                       {"elis", "eliz"},
+                                                                       {"eris", "eriz"},
+                                                                       {"imis", "imiz"},
+                                                                       {"onis", "oniz"},
+                                                                       {"oris", "oriz"},
+                                                                       {"ganis", "ganiz"},
+                                                                       {"cognis", "cogniz"},
+                                                                       {"maris", "mariz"}};
+/// Endings after parts of words that end in "is".
+constexpr std::string_view verb_endings[] = {"e ", "ed ", "er ", "ers ", "es ", "ing ", "ation ", "ations "};
+/// First words of docstrings.
+constexpr std::string_view verbs[] = {
+    "Act",     "Add",      "Advance", "Apply",  "Begin",     "Change",  "Check",  "Close",
+    "Compare", "Create",   "End",     "Give",   "Interrupt", "Load",    "Make",   "Move",
+    "Open",    "Pull",     "Raise",   "Read",   "Render",    "Replace", "Return", "Run",
+    "Set",     "Simulate", "Store",   "Submit", "Wrap",      "Write",   "Yield"};
+constexpr int most_tooltip_words = 12;
 constexpr std::string_view openings[] = {"What", "Of", "Refused", "So"};
 constexpr int most_words = 30;
 
@@ -100,8 +141,22 @@ int length_of(const std::string& sentence) {
   return count;
 }
 
+/// Attributes and texts of HTML with their lines.
+std::vector<std::pair<int, std::string>> texts_of(std::string_view html) {
+  static const std::regex text(R"x(="([^"]*)"|>([^<>]+)<)x");
+  std::vector<std::pair<int, std::string>> found;
+  const std::string all(html);
+  for (std::sregex_iterator at(all.begin(), all.end(), text), end; at != end; ++at) {
+    const auto lines = std::count(all.begin(), all.begin() + at->position(), '\n');
+    found.emplace_back(1 + static_cast<int>(lines), at->str(1) + at->str(2));
+  }
+  return found;
+}
+
 /// String literals of a file with their first lines; adjacent ones are one.
-std::vector<std::pair<int, std::string>> literals_of(std::string_view code, bool python) {
+std::vector<std::pair<int, std::string>> literals_of(std::string_view code, Language language) {
+  if (language == Language::html) return texts_of(code);
+  const bool python = language == Language::python, script = language == Language::javascript;
   std::vector<std::pair<int, std::string>> found;
   bool adjacent = false;
   int line = 1;
@@ -112,9 +167,9 @@ std::vector<std::pair<int, std::string>> literals_of(std::string_view code, bool
       i = std::min(code.find('\n', i), code.size()) - 1;
       continue;
     }
-    const bool raw = !python && code.substr(i, 2) == "R\"";
+    const bool raw = language == Language::cpp && code.substr(i, 2) == "R\"";
     const bool number = c == '\'' && !python && i > 0 && is_letter(code[i - 1]);  // 1'000
-    if (!raw && (number || (c != '"' && c != '\''))) {
+    if (!raw && (number || (c != '"' && c != '\'' && !(script && c == '`')))) {
       adjacent = adjacent && std::isspace(static_cast<unsigned char>(c));
       continue;
     }
@@ -134,7 +189,7 @@ std::vector<std::pair<int, std::string>> literals_of(std::string_view code, bool
     if (adjacent)
       found.back().second += text;
     else
-      found.emplace_back(line, c == '\'' && !python ? "" : text);
+      found.emplace_back(line, c == '\'' && language == Language::cpp ? "" : text);
     adjacent = true;
     line += static_cast<int>(std::ranges::count(text, '\n'));
     i = end + close.size() - 1;
@@ -156,6 +211,14 @@ class Page {
           add(line, "term", std::string(term.words) + ending + ": " + std::string(term.better));
       } while (endings >> ending);
     }
+    for (const auto& [british, american] : spellings)
+      for (std::size_t at = words.find(british); at != std::string::npos; at = words.find(british, at + 1)) {
+        const std::string_view rest = std::string_view(words).substr(at + british.size());
+        if (!british.ends_with("is") || std::ranges::any_of(verb_endings, [&](std::string_view ending) {
+              return rest.starts_with(ending);
+            }))
+          add(line, "spelling", std::string(british) + ": " + std::string(american));
+      }
     for (const std::string& sentence : sentences_of(plain)) {
       for (const std::string_view opening : openings)
         if (sentence.starts_with(opening) && !is_letter(sentence[opening.size()]))
@@ -228,9 +291,9 @@ std::vector<Offense> lint_prose(std::string_view text, Readers readers) {
   return page.take();
 }
 
-std::vector<Offense> lint_strings(std::string_view code, bool python) {
+std::vector<Offense> lint_strings(std::string_view code, Language language) {
   std::vector<Offense> found;
-  for (const auto& [first, literal] : literals_of(code, python)) {
+  for (const auto& [first, literal] : literals_of(code, language)) {
     static const std::regex escape(R"(\\n|\n)"), quote(R"(\\(.))");
     int line = first;
     for (std::sregex_token_iterator at(literal.begin(), literal.end(), escape, -1), end; at != end; ++at) {
@@ -242,6 +305,42 @@ std::vector<Offense> lint_strings(std::string_view code, bool python) {
       }
       line += at->second != literal.end() && *at->second == '\n';
     }
+  }
+  return found;
+}
+
+std::vector<Offense> lint_docstrings(std::string_view code) {
+  static const std::regex function(R"(\s*(async )?def .*)"), first_word(R"x(\s*"{3}(\w*).*)x");
+  std::vector<Offense> found;
+  std::istringstream lines{std::string(code)};
+  bool is_property = false, in_signature = false, is_body = false;
+  int number = 0;
+  for (std::string line; std::getline(lines, line); ++number) {
+    std::smatch word;
+    if (is_body && !is_property && std::regex_match(line, word, first_word) &&
+        std::ranges::find(verbs, word.str(1)) == std::end(verbs))
+      found.push_back({number + 1, "docstring",
+                       "begins with \"" + word.str(1) + "\", which is no imperative of `verbs`"});
+    if (is_body) is_property = false;
+    is_property =
+        is_property || line.find("@") < line.find("property") || line.find(".setter") != std::string::npos;
+    in_signature = in_signature || std::regex_match(line, function);
+    is_body = in_signature && line.ends_with(':');
+    if (is_body) in_signature = false;
+  }
+  return found;
+}
+
+std::vector<Offense> lint_tooltips(std::string_view code) {
+  static const std::regex verb(R"([A-Z][a-z]+s )");
+  std::vector<Offense> found;
+  for (const auto& [line, literal] : literals_of(code, Language::cpp)) {
+    const std::string text = literal.substr(0, literal.find("\\n"));
+    if (!text.ends_with('.') || !std::regex_search(text, verb, std::regex_constants::match_continuous))
+      continue;
+    for (const std::string& sentence : sentences_of(text))
+      if (const int length = length_of(sentence); length > most_tooltip_words)
+        found.push_back({line, "tooltip", std::to_string(length) + " words: " + sentence});
   }
   return found;
 }

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
+
 namespace aspic::testing {
 namespace {
 
@@ -69,9 +73,9 @@ TEST(ProseLint, FindsOutputsOfTheSameName) {
 }
 
 TEST(ProseLint, FindsOffensesInStringLiterals) {
-  const auto lines_of = [](std::string_view code, bool python = false) {
+  const auto lines_of = [](std::string_view code, Language language = Language::cpp) {
     std::vector<int> lines;
-    for (const Offense& offense : lint_strings(code, python)) lines.push_back(offense.line);
+    for (const Offense& offense : lint_strings(code, language)) lines.push_back(offense.line);
     return lines;
   };
   const std::string long_one = repeated("word", 31);
@@ -80,22 +84,72 @@ TEST(ProseLint, FindsOffensesInStringLiterals) {
   EXPECT_THAT(lines_of("R\"x(Done.\nWhat (\"is\") this)x\", \"Step.\\nOf these\""), ElementsAre(2, 2));
   EXPECT_THAT(lines_of("f(\"" + long_one + "\");"), ElementsAre(1));
   EXPECT_THAT(lines_of("\"film\" '\"'  // \"a film\"\n\"a\", \"film\""), IsEmpty());
-  EXPECT_THAT(lines_of("# a film\nf('a film')\n\"\"\"A \"step\".\n\n  So it is.\n\"\"\"\n", true),
+  EXPECT_THAT(lines_of("# a film\nf('a film')\n\"\"\"A \"step\".\n\n  So it is.\n\"\"\"\n", Language::python),
               ElementsAre(2, 5));
+  EXPECT_THAT(lines_of("// a film\nf(`a film`, 'a film')\n\"a\", \"film\"", Language::javascript),
+              ElementsAre(2, 2));
+  EXPECT_THAT(lines_of("<p id=\"film\">a step</p>\n<p title=\"a film\">a film</p>", Language::html),
+              ElementsAre(2, 2));
+}
+
+TEST(ProseLint, FindsBritishSpellings) {
+  EXPECT_THAT(rules_broken("A grey body.\nNeighbours normalise it\nThe optimisation of two metres\n"),
+              ElementsAre("1: spelling", "2: spelling", "2: spelling", "3: spelling", "3: spelling"));
+  EXPECT_THAT(
+      rules_broken("A precise rise of parameters otherwise raises `colour` and promises characteristics\n"),
+      IsEmpty());
+}
+
+TEST(ProseLint, FindsDocstringsThatAreNotImperative) {
+  const auto lines_of = [](std::string_view code) {
+    std::vector<int> lines;
+    for (const Offense& offense : lint_docstrings(code)) lines.push_back(offense.line);
+    return lines;
+  };
+  EXPECT_THAT(lines_of("def f(\n    a,\n) -> int:\n    \"\"\"The sum.\"\"\"\n\n\n"
+                       "async def g():\n    \"\"\"Returns it.\"\"\"\n"),
+              ElementsAre(4, 8));
+  EXPECT_THAT(
+      lines_of("class A:\n    \"\"\"A thing.\"\"\"\n\n    @property\n    def b(self) -> int:\n"
+               "        \"\"\"Bytes.\"\"\"\n\n    def c(self) -> int:\n        \"\"\"Return it.\"\"\"\n"),
+      IsEmpty());
+}
+
+TEST(ProseLint, FindsLongTooltips) {
+  const std::string words = repeated("word", 12);
+  EXPECT_EQ(lint_tooltips("f(\"Adds " + words + ".\");").size(), 1u);
+  EXPECT_EQ(lint_tooltips("f(\"Adds a body. Sets " + words + ".\\n\\nScene key: a\");").size(), 1u);
+  EXPECT_THAT(lint_tooltips("f(\"Adds a body. Key: B.\\n" + words + words + "\", \"The " + words + ".\");"),
+              IsEmpty());
 }
 
 TEST(ProseLint, StringLiteralsAreClean) {
-  int files = 0;
+  const std::map<std::string, Language> languages = {{".cpp", Language::cpp},
+                                                     {".h", Language::cpp},
+                                                     {".py", Language::python},
+                                                     {".js", Language::javascript},
+                                                     {".html", Language::html}};
+  std::map<Language, int> files;
   for (const std::filesystem::path& file : written_files(ASPIC_SOURCE_DIR)) {
     const std::string path = file.generic_string();
-    const bool python = path.starts_with("python/aspic/") && file.extension() == ".py";
-    if (!python && !(path.starts_with("src/") && (file.extension() == ".cpp" || file.extension() == ".h")))
+    const auto language = languages.find(file.extension().string());
+    const bool example = path.starts_with("examples/python/");
+    if (language == languages.end() || !(path.starts_with("src/") || path.starts_with("python/aspic/") ||
+                                         path.starts_with("python/src/") || example))
       continue;
-    ++files;
-    for (const Offense& offense : lint_strings(contents(ASPIC_SOURCE_DIR / file), python))
+    ++files[language->second];
+    const std::string code = contents(ASPIC_SOURCE_DIR / file);
+    std::vector<Offense> offenses = lint_strings(code, language->second);
+    if (language->second == Language::python)
+      std::ranges::move(lint_docstrings(code), std::back_inserter(offenses));
+    if (path.starts_with("src/app/")) std::ranges::move(lint_tooltips(code), std::back_inserter(offenses));
+    for (const Offense& offense : offenses)
       ADD_FAILURE() << path << ":" << offense.line << ": " << offense.rule << " (" << offense.text << ")";
   }
-  EXPECT_GE(files, 500);
+  EXPECT_GE(files[Language::cpp], 500);
+  EXPECT_GE(files[Language::python], 30);
+  EXPECT_GE(files[Language::javascript], 10);
+  EXPECT_GE(files[Language::html], 1);
 }
 
 TEST(ProseLint, PagesAreClean) {

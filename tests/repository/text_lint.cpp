@@ -30,6 +30,7 @@ constexpr std::string_view written[] = {".ci",
                                         "docs",
                                         "examples",
                                         "include",
+                                        "python",
                                         "scripts",
                                         "shaders",
                                         "src",
@@ -41,8 +42,9 @@ constexpr std::string_view left_out[] = {"tests/repository", "bench/results", "t
 constexpr std::string_view library_rooms[] = {
     "analysis", "base",  "cpu_parallel", "cpu_reference", "device", "gpu", "gpu_solver",
     "io",       "model", "page",         "playback",      "render", "run", "scene"};
-constexpr std::string_view extensions[] = {"",     ".cpp", ".h",  ".glsl",  ".comp", ".vert", ".frag", ".md",
-                                           ".txt", ".sh",  ".py", ".cmake", ".toml", ".json", ".supp"};
+constexpr std::string_view extensions[] = {"",      ".cpp",   ".h",    ".glsl", ".comp", ".vert",
+                                           ".frag", ".md",    ".txt",  ".sh",   ".py",   ".js",
+                                           ".html", ".cmake", ".toml", ".json", ".supp"};
 
 std::string lower(std::string_view text) {
   std::string result(text);
