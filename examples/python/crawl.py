@@ -1,6 +1,6 @@
 """A soft cube learns to crawl: a small evolution strategy on 64 environments of aspic.gym.
 
-    python crawl.py                         # minutes on two processors
+    python crawl.py                         # minutes on two CPU cores
     python crawl.py --video crawl.mp4        # and a video of what it learned
 
 The policy is linear: the tension of each tendon is a weighted sum of what the cube observes, within 0 … 1. In every
@@ -19,7 +19,7 @@ import numpy as np
 
 
 def tensions(weights: np.ndarray, observations: np.ndarray) -> np.ndarray:
-    """What policies do: weights (n, observations + 1, tendons), observations (n, observations)."""
+    """Return the actions of policies: weights (n, observations + 1, tendons), observations (n, observations)."""
     sums = weights[:, -1].copy()
     for j in range(observations.shape[1]):  # in this order, products of matrices have another on each machine
         sums += observations[:, j, None].astype(np.float64) * weights[:, j]
@@ -27,7 +27,7 @@ def tensions(weights: np.ndarray, observations: np.ndarray) -> np.ndarray:
 
 
 def distances(envs: aspic.gym.Crawl, weights: np.ndarray, seed: int) -> np.ndarray:
-    """How far policies crawl in an episode, from the same start [m]."""
+    """Return the distances that policies crawl in an episode, from the same start [m]."""
     observations, _ = envs.reset(seed=[seed] * envs.num_envs)
     reached = np.zeros(envs.num_envs)
     over = np.zeros(envs.num_envs, bool)
@@ -70,7 +70,7 @@ def main() -> None:
 
 
 def show(weights: np.ndarray, seconds: float, video: str | None) -> None:
-    """An episode of the policy, which a simulation repeats by its inputs."""
+    """Simulate an episode of the policy, which a simulation repeats by its inputs."""
     envs = aspic.gym.Crawl(1, episode=seconds)
     observations, _ = envs.reset(seed=0)
     sim = aspic.Simulation(envs.batch[0].scene, "cpu")

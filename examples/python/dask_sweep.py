@@ -13,7 +13,7 @@ import numpy as np
 
 
 def reach(run: aspic.Trajectory) -> float:
-    """How far the center of mass moved along the ground [m]."""
+    """Return the displacement of the center of mass along the ground [m]."""
     way = run["center-of-mass"][-1] - run["center-of-mass"][0]
     return float(np.hypot(way[0], way[2]))
 

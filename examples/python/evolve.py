@@ -1,6 +1,6 @@
-"""Robots of voxels evolve: bodies and the phases of their muscles, by how far they crawl.
+"""Evolve voxel robots: bodies and phases of muscles, selected by the distance they crawl.
 
-    python evolve.py                        # 200 robots × 100 generations: minutes on two processors
+    python evolve.py                        # 200 robots × 100 generations: minutes on two CPU cores
     python evolve.py --video best.mp4        # and a video of the winner
 
 A robot is a block of cells, each of which is empty, fat, or muscle with a phase. Every generation mutates the best
@@ -37,7 +37,7 @@ class Chance:
 
 
 def yard() -> aspic.Scene:
-    """What all robots share: ground and materials.
+    """Return a scene of what all robots share: ground and materials.
 
     The time step is well below the largest stable one of any robot: evolution would find those that blow up and fly.
     """
@@ -53,7 +53,7 @@ def yard() -> aspic.Scene:
 
 
 def scene_of(robot: Robot, ground: aspic.Scene) -> aspic.Scene:
-    """The robot, which stands on the ground."""
+    """Return a scene in which the robot stands on the ground."""
     scene = ground.copy()
     used = np.flatnonzero(robot.kinds.any(axis=(0, 2)))
     height = 0.1 * (robot.kinds.shape[1] / 2 - used[0])
@@ -68,7 +68,7 @@ def scene_of(robot: Robot, ground: aspic.Scene) -> aspic.Scene:
 
 
 def random_robot(shape: tuple[int, int, int], chance: Chance) -> Robot:
-    """Mostly full, with a muscle somewhere."""
+    """Return a robot that is mostly full and has a muscle."""
     count = int(np.prod(shape))
     kinds = np.array([EMPTY, FAT, MUSCLE, MUSCLE])[chance.numbers(count, 4)].reshape(shape)
     kinds[tuple(n // 2 for n in shape)] = MUSCLE
@@ -76,7 +76,7 @@ def random_robot(shape: tuple[int, int, int], chance: Chance) -> Robot:
 
 
 def mutated(robot: Robot, chance: Chance) -> Robot:
-    """Some cells of it become others."""
+    """Return the robot with some cells changed."""
     kinds, phases = robot.kinds.copy().ravel(), robot.phases.copy().ravel()
     for cell in chance.numbers(int(1 + chance.numbers(1, 4)[0]), kinds.size):
         kinds[cell] = np.array([EMPTY, FAT, MUSCLE, MUSCLE])[chance.numbers(1, 4)[0]]
@@ -86,14 +86,14 @@ def mutated(robot: Robot, chance: Chance) -> Robot:
 
 
 def crawled(scenes: list[aspic.Scene], seconds: float) -> tuple[np.ndarray, list[str]]:
-    """How far what is in each moves along x [m], −1 if it diverges, and the hash of its end."""
+    """Return each body's displacement along x [m], −1 if it diverges, and the hash of its last state."""
     out = aspic.Batch(scenes).run(seconds, record=["center-of-mass"])
     moved = out["center-of-mass"][:, -1, 0] - out["center-of-mass"][:, 0, 0]
     return np.where(out.diverged, -1.0, moved), out.hash
 
 
 def distances(robots: list[Robot], ground: aspic.Scene, seconds: float) -> tuple[np.ndarray, list[str]]:
-    """How far each crawls along x [m], and the hash of its end; −1 of what is no robot or diverges."""
+    """Return each robot's displacement along x [m] and the hash of its last state; −1 if it is invalid or diverges."""
     scenes, numbers = [], []
     for number, robot in enumerate(robots):
         try:

@@ -1,4 +1,4 @@
-"""How high cubes of several stiffnesses bounce: a run each, on all processors."""
+"""Measure how high cubes of several stiffnesses bounce: a run each, on all CPU cores."""
 
 import argparse
 import concurrent.futures
@@ -8,7 +8,7 @@ import aspic
 
 
 def bounce(scene: aspic.Scene, stiffness: float) -> tuple[float, float, str]:
-    """Lowest and then highest center of mass [m] after the drop, and the hash of the state at the end."""
+    """Return the lowest and the next highest center of mass [m] after the drop, and the hash of the last state."""
     names = ("structural", "shear", "bending")
     sim = aspic.Simulation(scene.copy({f"cube[0].{name}.stiffness": stiffness for name in names}), "cpu", threads=1)
     height = sim.run(every=0.01, record=["center-of-mass"])["center-of-mass"][:, 1]

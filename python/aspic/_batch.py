@@ -50,12 +50,12 @@ class Instance(Steerable):
 
     @property
     def divergence(self) -> DivergedError | None:
-        """Which step failed and how, as the exception that a Simulation raises; None: it has not diverged."""
+        """The divergence, as the exception that a Simulation raises; None: it has not diverged."""
         found = self._core.divergence()
         return diverged(found) if found else None
 
     def update(self, values: Mapping[str, Any]) -> None:
-        """Changes constants of this instance alone, and forgets a divergence.
+        """Change constants of this instance alone, and clear its divergence.
 
         ``values``, and what it raises: as ``Simulation.update()``. An instance with another time step than those it is
         computed with becomes slower.
@@ -63,11 +63,11 @@ class Instance(Steerable):
         self._core.update(changes(values))
 
     def save(self) -> State:
-        """A copy of the state with the present inputs, for ``load()``, also that of a Simulation."""
+        """Return a copy of the state with the present inputs, for ``load()``, also that of a Simulation."""
         return State(self._core.state(), self._core.log())
 
     def load(self, state: State) -> None:
-        """Goes to a state of the same model, with the inputs that it has for its step. Forgets a divergence.
+        """Load a state of the same model, with its inputs, and clear a divergence.
 
         Raises UsageError.
         """
@@ -95,7 +95,7 @@ class _Drawer:
         self._shown: tuple[str, Simulation] | None = None
 
     def of(self, instance: Instance) -> Simulation:
-        """At the instance's state, with its scene."""
+        """Return a simulation at the instance's state, with its scene."""
         from ._simulation import Simulation
 
         scene = instance.scene
@@ -123,7 +123,7 @@ class Batch(Unshared):
         count: int | None = None,
         threads: int = 0,
     ) -> None:
-        """Makes n instances at their scenes' starts; later changes of the scenes do not matter to them.
+        """Create n instances at the start of their scenes; later changes of the scenes have no effect.
 
         ``scenes``: several, each one or what ``aspic.load()`` takes, or a single one, of which ``count`` instances are
         made; the same object several times is made once. ``backend``: ``"cpu"``, or ``"auto"``, which is the same:
@@ -160,11 +160,11 @@ class Batch(Unshared):
     # Instances.
 
     def __len__(self) -> int:
-        """Instances."""
+        """Return the number of instances."""
         return self._size
 
     def __getitem__(self, instance: SupportsIndex) -> Instance:
-        """An instance by its number from 0, from the end if negative. Raises IndexError."""
+        """Return an instance by its number from 0, from the end if negative. Raises IndexError."""
         number = self._number(instance)
         return Instance(self._core.instance(number), number, self._drawer)
 
@@ -172,7 +172,7 @@ class Batch(Unshared):
         return (self[i] for i in range(self._size))
 
     def set_scene(self, instance: SupportsIndex, scene: Scene | Path) -> None:
-        """Gives an instance the constants of another scene: stiffnesses, masses, gravity, contact, the time step.
+        """Give an instance the constants of another scene: stiffnesses, masses, gravity, contact, the time step.
 
         Its state and inputs stay, and a divergence is forgotten. Raises IndexError; UsageError where particles,
         springs, kinds of terrain or the integrator would become others, which takes a new Batch. Then nothing changes.
@@ -194,7 +194,7 @@ class Batch(Unshared):
     def run(
         self, duration: float, *, every: float | None = None, record: str | Sequence[str] = ("center-of-mass",)
     ) -> BatchTrajectory:
-        """Steps every instance, and records on the way.
+        """Advance every instance and record it.
 
         ``duration``: from where each is [s], ≥ 0; ``every``: the interval of samples [s], the first at once, each at
         the step nearest to its time, the last at the end; None: the start and the end alone. ``record``:
@@ -215,7 +215,7 @@ class Batch(Unshared):
         time, centers, momenta, energies, work, positions, diverged, hashes = self._core.run(
             duration, interval, center, momentum, energy, actuators, body
         )
-        of: dict[str, Any] = {"center-of-mass": centers, "momentum": momenta, "actuator-work": work, "positions": positions}
+        of: dict[str, Any] = dict(zip(_OF_ALL, (centers, momenta, None, work)), positions=positions)
         if energies is not None:
             of["energy"] = Energy(*(energies[..., part].copy() for part in range(3)))
         series = {name: of[kind] for name, kind in zip(names, kinds)}
@@ -226,7 +226,7 @@ class Batch(Unshared):
         self._core.stop()
 
     def reset(self, mask: ArrayLike | None = None) -> None:
-        """Back to the start: step 0 of their scenes. Inputs and constants stay.
+        """Return to step 0 of the scenes. Inputs and constants stay.
 
         ``mask``: (n,) of bool, which instances; None: all. Raises UsageError for another shape or type.
         """
@@ -257,7 +257,7 @@ class Batch(Unshared):
 
     @property
     def diverged(self) -> NDArray[np.int64]:
-        """The step that failed, (n,); 0: not diverged. ``batch.reset(batch.diverged > 0)`` begins with those again."""
+        """The step that failed, (n,); 0: not diverged. ``batch.reset(batch.diverged > 0)`` restarts those."""
         return self._core.diverged().astype("int64")
 
     @property
@@ -266,7 +266,7 @@ class Batch(Unshared):
         return self._core.hashes()
 
     def read(self, field: str) -> NDArray[np.float32]:
-        """A field of all states, (n, p, 3): those that ``Simulation.read()`` names.
+        """Return a field of all states, (n, p, 3): those that ``Simulation.read()`` names.
 
         Raises UsageError for an unknown field, and where instances have different numbers of particles or balls.
         """
@@ -291,7 +291,7 @@ class Batch(Unshared):
 
     @property
     def momentum(self) -> NDArray[np.float64]:
-        """Σ m v of what is not pinned, (n, 3) [N·s]."""
+        """Momentum Σ m v of particles that are not pinned, (n, 3) [N·s]."""
         return self._now("momentum")[:, 0]  # type: ignore[no-any-return]
 
     @property
@@ -303,12 +303,12 @@ class Batch(Unshared):
 
     @property
     def description(self) -> str:
-        """One line on the grouping of instances, threads and the instruction set."""
+        """Grouping of instances, threads and instruction set, in one line."""
         return self._core.description()
 
     @property
     def nbytes(self) -> int:
-        """Bytes of memory, those of the models apart."""
+        """Memory in use without the models [bytes]."""
         return self._core.bytes()
 
     # Parts.
@@ -326,7 +326,7 @@ class Batch(Unshared):
         return self.run(0.0, record=[name])[name]
 
     def _wanted(self, names: list[str]) -> tuple[int | None, list[str]]:
-        """The number of the body whose positions are recorded, and what each name asks for."""
+        """Return the number of the body whose positions are recorded, and the quantity of each name."""
         found: set[int] = set()
         kinds = []
         for name in names:
@@ -344,7 +344,7 @@ class Batch(Unshared):
         return (found.pop() if found else None), kinds
 
     def _body(self, name: str) -> int:
-        """The number of a body in every instance; no name: the only one."""
+        """Return the number of a body in every instance; no name: the only one."""
         numbers = set()
         for i, bodies in enumerate(self._core.bodies()):
             if not name and len(bodies) != 1:

@@ -16,7 +16,7 @@ __all__ = ["Ball", "Body", "Skin", "body_index"]
 
 
 def body_index(bodies: list[str], name: str, scene: _aspic.Scene) -> int | None:
-    """Which of the bodies is meant: by ``cube[0]``, ``cube`` or the name that the scene gives one; None: none."""
+    """Return the number of the body named ``cube[0]``, ``cube`` or as in the scene; None without one."""
     wanted = name if name.endswith("]") else f"{name}[0]"
     if wanted in bodies:
         return bodies.index(wanted)
@@ -49,7 +49,7 @@ class Body:
 
     @property
     def name(self) -> str:
-        """``"cube[0]"``."""
+        """Name of the body, ``"cube[0]"``."""
         return self._name
 
     @property
@@ -103,7 +103,7 @@ class Body:
 
     @property
     def contacts(self) -> NDArray[np.bool_]:
-        """Marks particles in contact with the ground or another body, (n,)."""
+        """Flags of particles in contact with terrain or another body, (n,) of bool."""
         return self._simulation.quantities.contact[self._slice]
 
     @property
@@ -145,17 +145,17 @@ class Ball:
 
     @property
     def name(self) -> str:
-        """``"ball[0]"``."""
+        """Name of the ball, ``"ball[0]"``."""
         return f"ball[{self._index}]"
 
     @property
     def radius(self) -> float:
-        """[m]."""
+        """Radius [m]."""
         return self._radius
 
     @property
     def mass(self) -> float:
-        """[kg]."""
+        """Mass [kg]."""
         return self._mass
 
     @property
@@ -183,5 +183,5 @@ class Ball:
 
 
 def weighted(masses: Any, vectors: Any) -> NDArray[np.float64]:
-    """Σ m·v in double precision, (3,); each axis has its own sum, independent of the array's other columns."""
+    """Return Σ m·v in double precision, (3,); each axis has its own sum, independent of the array's other columns."""
     return (masses[:, None] * vectors.astype("float64")).sum(axis=0)  # type: ignore[no-any-return]

@@ -25,19 +25,19 @@ class Buildable:
     """
 
     def _count(self, kind: str) -> int:
-        """Elements of a list of the scene."""
+        """Return the number of elements of a list of the scene."""
         raise NotImplementedError
 
     def _extend(self, words: list[str]) -> None:
-        """Takes arguments of --set."""
+        """Apply arguments of --set."""
         raise NotImplementedError
 
     def update(self, values: Mapping[str, Any]) -> None:
-        """Sets several keys."""
+        """Set several keys."""
         raise NotImplementedError
 
     def add(self, kind: str, values: Mapping[str, Any] | None = None, /, **more: Any) -> str:
-        """Adds an element to a list of the scene; returns its path, ``"cube[1]"``, or ``"voxels[worm]"`` by its name.
+        """Add an element to a list of the scene; return its path, ``"cube[1]"``, or ``"voxels[worm]"`` by its name.
 
         ``kind``: ``"cube"``, ``"voxels"``, ``"cloth"``, ``"goal-net"``, ``"terrain"``, ``"ball"``, ``"launcher"``,
         ``"material"`` or another ``[[…]]`` of scene files; ``values`` and ``more``: its keys, ``{"edge-length": 1.0}``
@@ -70,7 +70,7 @@ class Buildable:
         youngs_modulus: float | None = None,
         damping_ratio: float | None = None,
     ) -> str:
-        """Adds a material, which bodies use by its name; returns its path, ``"material[muscle]"``.
+        """Add a material, which bodies use by its name; return its path, ``"material[muscle]"``.
 
         ``density``: ρ [kg/m³], > 0; ``youngs_modulus``: E [Pa], > 0, which means the same at every resolution;
         ``damping_ratio``: ζ, ≥ 0 (docs/physics.md, *Materials*). Raises SceneError, also where the name is taken.
@@ -91,7 +91,7 @@ class Buildable:
         pinned: Iterable[Any] | None = None,
         **more: Any,
     ) -> str:
-        """Adds a body of cubic cells, and returns its path, ``"voxels[worm]"``.
+        """Add a body of cubic cells; return its path, ``"voxels[worm]"``.
 
         ``cells``: whole numbers or bool, (nx, ny, nz) along x, y (upwards) and z, 0 where a cell is empty, at most 512
         along each axis; or layers of rows of characters as in files. ``size``: edge of a cell [m], > 0; ``palette``:
@@ -132,7 +132,7 @@ class Buildable:
         pieces: str | None = None,
         **more: Any,
     ) -> str:
-        """Adds the inside of a mesh as a body of cells, drawn as the mesh; returns its path, ``"voxels[bunny]"``.
+        """Add the inside of a mesh as a body of cells, drawn as the mesh; return its path, ``"voxels[bunny]"``.
 
         ``path``: .obj, .stl or .ply, or ``"rabbit"``, which is built in; ``cells``: along the longest edge of its box,
         1 … 256; ``height``: of the box, to which the mesh is scaled [m], None: the file's numbers are meters; ``up``:
@@ -162,7 +162,7 @@ class Buildable:
         start: float | None = None,
         ramp: float | None = None,
     ) -> str:
-        """Adds an actuator, which makes springs' rest lengths follow a signal; returns its path, ``"actuator[legs]"``.
+        """Add an actuator, which makes springs' rest lengths follow a signal; return its path, ``"actuator[legs]"``.
 
         r(t) = r₀(1 + a·w(t)) for the springs of chosen cells (docs/actuation.md). ``body``: one or several names, None:
         every body; ``material``: names of the cells' materials, ``box``: two corners (3,) around the middles of cells,
@@ -204,7 +204,7 @@ class Buildable:
 
 
 def _saved(folder: str, name: str, array: ArrayLike) -> str:
-    """The file of an array, for the library, which reads what numpy writes: one reader with one set of messages."""
+    """Write an array to a file that the library reads, so that one reader gives all messages."""
     import numpy as np
 
     file = os.path.join(folder, f"{name}.npy")
@@ -216,7 +216,7 @@ def _saved(folder: str, name: str, array: ArrayLike) -> str:
 
 
 def _unsaved(message: str, folder: str) -> str:
-    """A message that speaks of the array in the place of its file."""
+    """Return a message that names the array in place of its file."""
     return re.sub(rf'"{re.escape(folder + os.sep)}(\w+)\.npy"', r"\1", message)
 
 

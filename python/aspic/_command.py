@@ -16,7 +16,7 @@ __all__ = ["page_command"]
 
 
 def differences(scene: Scene) -> list[str] | None:
-    """Arguments of --set that turn the built-in scene of that name into this one; None if there are none."""
+    """Return arguments of --set that turn the built-in scene of that name into this one; None if there are none."""
     if scene.name not in (builtin.name for builtin in scenes()):
         return None
     builtin = load(scene.name)
@@ -29,7 +29,7 @@ def differences(scene: Scene) -> list[str] | None:
 
 
 def page_command(sim: Simulation, steps: int, words: list[str]) -> str:
-    """``aspic run`` of a page from a simulation's start on, with ``words`` for the page; empty where none repeats it.
+    """Return the ``aspic run`` command that writes the page, with ``words`` for the page; empty without one.
 
     One does for built-in scenes of which some keys were changed, from their start, without pulls and pins of hands.
     """

@@ -26,7 +26,7 @@ __all__ = ["Crawl", "CrawlEnv", "crawler"]
 
 
 def crawler(overrides: dict[str, Any] | None = None) -> Scene:
-    """The scene of ``Crawl``: a soft cube with edges of 1 m and 64 particles of 1 kg, which lies on rough ground.
+    """Return the scene of ``Crawl``: a soft cube with edges of 1 m and 64 particles of 1 kg, on rough ground.
 
     ``overrides``: keys and values set afterwards. Raises SceneError.
     """
@@ -79,7 +79,7 @@ class Crawl(Locomotion):
         push: float = 0.05,
         **options: Any,
     ) -> None:
-        """Makes the environments.
+        """Create the environments.
 
         ``scenes``: ``crawler()``, ``num_envs`` times, or others with as many particles in each; ``tendons``: the ends
         of each, (m, 2) indices of particles, 1 … 128 pairs; None: the eight edges along x and y of the box around the
@@ -111,7 +111,7 @@ class Crawl(Locomotion):
             raise UsageError("the ends of a tendon are at different places")
 
     def act(self, actions: Any) -> None:
-        """Tensions the tendons."""
+        """Pull the tendons."""
         x = self.batch.positions.astype(np.float64)
         across, length = self._spans(x)
         far = across / np.maximum(length, 1e-9)[:, :, None] * _FAR
@@ -124,7 +124,7 @@ class Crawl(Locomotion):
             ]
 
     def observe(self) -> Floats:
-        """Clock, lengths, rates, velocity and height, (n, 2m + 6)."""
+        """Return clock, lengths, rates, velocity and height, (n, 2m + 6)."""
         x, v = self.batch.positions.astype(np.float64), self.batch.velocities.astype(np.float64)
         across, length = self._spans(x)
         difference = v[:, self.ends[:, 1]] - v[:, self.ends[:, 0]]
@@ -134,18 +134,18 @@ class Crawl(Locomotion):
         )
 
     def _spans(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """From one end of each tendon to the other, (n, m, 3), and how long that is, (n, m)."""
+        """Return the vectors between the ends of tendons, (n, m, 3), and their lengths, (n, m)."""
         across = x[:, self.ends[:, 1]] - x[:, self.ends[:, 0]]
         return across, np.sqrt(_dot(across, across))
 
 
 def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Sum over the last axis in a fixed order."""
+    """Return the dot product over the last axis, summed in a fixed order."""
     return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
 
 
 def _edges(scene: Scene | Path) -> NDArray[np.int64]:
-    """The edges along x and y of the box around the first body, by the particles nearest to its corners."""
+    """Return the edges along x and y of the first body's box, by the particles nearest to its corners."""
     sim = Simulation(scene, "cpu", threads=1)
     if not sim.bodies:
         raise UsageError("the scene has no body to crawl")
@@ -165,5 +165,5 @@ class CrawlEnv(SingleEnv):
     """A single environment of ``Crawl``: ``gymnasium.make("aspic/Crawl-v0")``."""
 
     def __init__(self, **options: Any):
-        """``options``: those of ``Crawl()`` but for ``num_envs`` and ``autoreset_mode``."""
+        """Create the environment. ``options``: those of ``Crawl()`` except ``num_envs`` and ``autoreset_mode``."""
         super().__init__(Crawl(1, autoreset_mode=AutoresetMode.DISABLED, **options))

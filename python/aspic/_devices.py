@@ -23,7 +23,7 @@ class Device(NamedTuple):
 
 
 def devices() -> list[Device]:
-    """Which backends work here, and why others do not; makes a small simulation on each, and so an OpenGL context."""
+    """Return which backends work here, and why others fail. Creates a simulation on each and an OpenGL context."""
     scene = Scene("schema = 1\n[[cube]]\nparticles-per-edge = 2\n")
     found = []
     for backend in ("gpu", "cpu", "reference"):

@@ -56,7 +56,7 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
         height: int = 270,
         threads: int = 0,
     ) -> None:
-        """Makes the batch; call it before anything else of a derived class.
+        """Create the batch. Derived classes call this first.
 
         ``scenes``: one, or what ``aspic.load()`` takes, of which ``num_envs`` (1) are made, or one for each
         environment, with equal time steps; ``observation_space``, ``action_space``: of a single environment; ``every``:
@@ -106,7 +106,7 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
     # What derived classes say.
 
     def act(self, actions: Any) -> None:
-        """Gives the instances their inputs. ``actions``: (n, …), in the action space."""
+        """Set the inputs of the instances. ``actions``: (n, …), in the action space."""
         raise NotImplementedError
 
     def observe(self) -> Any:
@@ -114,17 +114,17 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
         raise NotImplementedError
 
     def judge(self) -> tuple[ArrayLike, ArrayLike]:
-        """Rewards of the step just made, (n,), and whether episodes end by it, (n,) of bool.
+        """Return the rewards of the last step, (n,), and which episodes it ends, (n,) of bool.
 
         Those of environments that begin in this step do not count.
         """
         raise NotImplementedError
 
     def begin(self, index: int, instance: Instance, random: np.random.Generator) -> None:
-        """Changes an instance at the beginning of an episode: it is at its scene's start, without inputs."""
+        """Change an instance at the beginning of an episode, when it is at step 0 without inputs."""
 
     def figures(self) -> dict[str, NDArray[Any]]:
-        """More for infos: arrays of n numbers."""
+        """Return more values of infos: arrays of n numbers."""
         return {}
 
     # What Gymnasium asks for.
@@ -132,7 +132,7 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        """Begins episodes: observations, (n, …), and infos.
+        """Begin episodes; return observations, (n, …), and infos.
 
         ``seed``: environment i gets ``seed + i``, or one of a list; None: generators continue. ``options``: with
         ``reset_mask``, (n,) of bool, only those environments begin. Raises UsageError for other shapes and types.
@@ -148,7 +148,7 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
         return self.observe(), _infos(self._figures(), mask)
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
-        """Acts for ``every`` s: observations (n, …), rewards, terminations and truncations (n,), and infos.
+        """Act for ``every`` s; return observations (n, …), rewards, terminations and truncations (n,), and infos.
 
         ``actions``: (n, …); numbers outside of the space become its nearest ones. Raises UsageError for another shape
         and for what is not finite, ``gymnasium.error.ResetNeeded`` before the first ``reset()`` and, without automatic
@@ -211,12 +211,12 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
 
     @property  # type: ignore[misc, unused-ignore]
     def np_random(self) -> tuple[np.random.Generator, ...]:  # type: ignore[override, unused-ignore]
-        """The random generator of each environment."""
+        """Random generators of the environments."""
         return tuple(generator for generator, _ in self._random())
 
     @property
     def np_random_seed(self) -> tuple[int, ...]:  # type: ignore[misc, override, unused-ignore]
-        """The seed of each of them."""
+        """Seeds of the random generators."""
         return tuple(seed for _, seed in self._random())
 
     # Parts.
@@ -266,7 +266,7 @@ class BatchEnv(Unshared, VectorEnv):  # type: ignore[misc, type-arg, unused-igno
 
 
 def _count(name: str, duration: float, h: float) -> int:
-    """How many times h a duration is, to a millionth."""
+    """Return a duration in time steps h, which it must be a multiple of to a millionth."""
     count = round(duration / h) if h > 0 and np.isfinite(duration) else 0
     if count < 1 or abs(count * h - duration) > 1e-6 * duration:
         raise UsageError(f"{name} is a multiple of {h:g} s, not {duration} s")
@@ -274,7 +274,7 @@ def _count(name: str, duration: float, h: float) -> int:
 
 
 def _infos(figures: dict[str, NDArray[Any]], mask: NDArray[np.bool_]) -> dict[str, Any]:
-    """In Gymnasium's form: an array by name, and which of its rows count."""
+    """Return infos in Gymnasium's form: an array by name, and which of its rows count."""
     infos: dict[str, Any] = {}
     for name, numbers in figures.items():
         infos[name] = np.where(mask, numbers, np.zeros((), numbers.dtype))
@@ -288,7 +288,7 @@ class SingleEnv(Unshared, gymnasium.Env):  # type: ignore[misc, type-arg, unused
     metadata: dict[str, Any] = BatchEnv.metadata
 
     def __init__(self, envs: BatchEnv):
-        """``envs``: of one environment, with the mode ``DISABLED``. Raises UsageError for others."""
+        """Wrap ``envs``, a single environment with the mode ``DISABLED``. Raises UsageError for others."""
         if envs.num_envs != 1 or envs.autoreset_mode != AutoresetMode.DISABLED:
             raise UsageError("a single environment is a BatchEnv of one, without automatic resets")
         self.envs = envs
@@ -306,7 +306,7 @@ class SingleEnv(Unshared, gymnasium.Env):  # type: ignore[misc, type-arg, unused
         return observations[0], _of_one(infos)
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """Acts for ``every`` s: observation, reward, terminated, truncated, info. Raises as ``BatchEnv.step()``."""
+        """Act for ``every`` s; return observation, reward, terminated, truncated, info. Raises as BatchEnv.step()."""
         observations, rewards, terminations, truncations, infos = self.envs.step(np.asarray(action)[None])
         return observations[0], float(rewards[0]), bool(terminations[0]), bool(truncations[0]), _of_one(infos)
 
@@ -315,7 +315,7 @@ class SingleEnv(Unshared, gymnasium.Env):  # type: ignore[misc, type-arg, unused
         return None if self.render_mode is None else self.envs.image(0)
 
     def close(self) -> None:
-        """Ends its use."""
+        """Close the environment."""
         self.envs.close()
 
 

@@ -102,7 +102,7 @@ class ConvergenceWarning(UserWarning):
 
 
 class RunWarning(UserWarning):
-    """Something of a scene or a run does not hold: bodies within terrain, flat cells, energy from nowhere, and others."""
+    """A scene or run has a defect: bodies within terrain, flat cells, unexplained energy, and others."""
 
 
 class OverlapWarning(RunWarning):
@@ -130,13 +130,13 @@ class Unshared:
 
 
 def error_of(code: int, message: str) -> Error:
-    """The exception of a code; the extension module raises it."""
+    """Return the exception of an error code; the extension module raises it."""
     # Where a key was set, the program names its option; here there is none.
     return _classes[code](re.sub(r"^--(set|view) ", "", message, flags=re.MULTILINE))
 
 
 def diverged(found: tuple[int, int, bool, str]) -> DivergedError:
-    """The exception of a divergence as the extension module tells it."""
+    """Return the exception of a divergence reported by the extension module."""
     step, index, ball, text = found
     error = DivergedError(
         f"the simulation diverged at step {step}: {text}. Its state is that of step {step - 1}. "

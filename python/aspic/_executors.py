@@ -22,7 +22,7 @@ _ARRAY = 1000  # jobs of a Slurm array
 
 
 def kind_of(executor: Any) -> str:
-    """``"here"``, ``"processes"``, ``"address"``, ``"dask"``, ``"submitit"`` or ``"futures"``. Raises UsageError."""
+    """Return "here", "processes", "address", "dask", "submitit" or "futures". Raises UsageError."""
     if executor is None:
         return "here"
     if isinstance(executor, str):
@@ -45,7 +45,7 @@ def kind_of(executor: Any) -> str:
 
 
 def workers_of(executor: Any, workers: int) -> int:
-    """How many tasks are done at once, as far as it can be known; 0: it cannot."""
+    """Return the number of concurrent tasks; 0: unknown."""
     import os
 
     kind = kind_of(executor)
@@ -61,7 +61,7 @@ def workers_of(executor: Any, workers: int) -> int:
 def submitter(
     executor: Any, workers: int, retries: int, options: Mapping[str, Any]
 ) -> Callable[[Callable[..., Any], Any, Sequence[Task]], Iterator[Outcome]]:
-    """Runs tasks, f(common, task), and yields each with its result as it arrives. Closing it drops the rest."""
+    """Run tasks, f(common, task), and yield each with its result as it arrives. Closing drops the rest."""
     kind = kind_of(executor)
     if options and kind not in ("dask", "address"):
         raise UsageError("submit is for Dask: keywords of Client.submit()")
@@ -86,7 +86,7 @@ def _here(f: Callable[..., Any], common: Any, tasks: Sequence[Task]) -> Iterator
 
 
 def _futures(executor: Any, f: Callable[..., Any], common: Any, tasks: Sequence[Task]) -> Iterator[Outcome]:
-    """Those of concurrent.futures and what is like them."""
+    """Submit to executors like those of concurrent.futures."""
     import queue
 
     done: queue.SimpleQueue[tuple[Task, Any]] = queue.SimpleQueue()
@@ -126,7 +126,7 @@ def _result_of(future: Any) -> Any:
 def _processes(
     f: Callable[..., Any], common: Any, tasks: Sequence[Task], workers: int, retries: int
 ) -> Iterator[Outcome]:
-    """Processes of this machine, started by spawn: a fork of a process with threads or a display may hang.
+    """Submit to processes of this machine, started by spawn: forks of processes with threads or a display may hang.
 
     A process that dies breaks the pool: then another one does what was under way, run by run, one at a time, so that
     the one that ends processes is known.
@@ -175,7 +175,7 @@ def _processes(
 
 
 def _pickled(f: Callable[..., Any], common: Any) -> bytes:
-    """Both as bytes, of lambdas too where the package cloudpickle is installed. Raises UsageError."""
+    """Return both as bytes, also lambdas if the package cloudpickle is installed. Raises UsageError."""
     import pickle
 
     try:
@@ -210,7 +210,7 @@ def _at_address(
 def _dask(
     client: Any, f: Callable[..., Any], common: Any, tasks: Sequence[Task], retries: int, options: Mapping[str, Any]
 ) -> Iterator[Outcome]:
-    """A Dask cluster. Each future is released when its result is here: a worker that dies later loses nothing."""
+    """Submit to a Dask cluster. It releases each future with its result, so a worker that dies later loses nothing."""
     from distributed import as_completed
 
     waiting = collections.deque(tasks)
@@ -258,7 +258,7 @@ class _Restartable:
 
 
 def _submitit(executor: Any, f: Callable[..., Any], common: Any, tasks: Sequence[Task]) -> Iterator[Outcome]:
-    """An array of jobs. Their results stay in submitit's folder until they are read."""
+    """Submit an array of jobs. Their results stay in submitit's folder until they are read."""
     # A cluster takes arrays of some number of jobs: 1,001 if nobody has changed it.
     share = -(-len(tasks) // _ARRAY)
     tasks = [list(itertools.chain(*tasks[i : i + share])) for i in range(0, len(tasks), max(share, 1))]

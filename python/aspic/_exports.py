@@ -104,7 +104,7 @@ def plain(name: str) -> str:
 
 
 def kind_of(name: str) -> Kind:
-    """Metadata of an array by its name, ``"cube[0].positions"``: then its particles are a dimension of that body."""
+    """Return metadata of an array by its name; ``"cube[0].positions"`` has that body's particles as a dimension."""
     if plain(name) in KINDS:
         return KINDS[plain(name)]
     body, _, what = name.rpartition(".")
@@ -113,13 +113,13 @@ def kind_of(name: str) -> Kind:
 
 
 def about_all(names: Iterable[str]) -> bool:
-    """Whether one of the arrays is of all particles or springs: then those of the model belong to it."""
+    """Return whether an array is of all particles or springs, so that arrays of the model belong to it."""
     found = {d for name in names if not name.startswith("model.") for d in kind_of(name).dimensions}
     return not found.isdisjoint(("particle", "spring"))
 
 
 def model_arrays(scene: Scene) -> dict[str, Any]:
-    """Constant arrays: masses, springs, surfaces."""
+    """Return constant arrays: masses, springs, surfaces."""
     import numpy as np
 
     from ._simulation import Simulation
@@ -151,7 +151,7 @@ def model_arrays(scene: Scene) -> dict[str, Any]:
 
 
 def _meshes(of_bodies: list[tuple[Any, Any, Any]]) -> dict[str, Any]:
-    """Meshes to render on bodies of cells; none where no body has a mesh."""
+    """Return the meshes of bodies of cells; empty if no body has one."""
     import numpy as np
 
     counts = [len(corners) for corners, _, _ in of_bodies]
@@ -169,7 +169,7 @@ def _meshes(of_bodies: list[tuple[Any, Any, Any]]) -> dict[str, Any]:
 
 
 def needs(package: str, use: str) -> ModuleNotFoundError:
-    """The error for a package that is not there."""
+    """Return the error for a missing package."""
     return ModuleNotFoundError(f"{use} needs the package {package}: pip install {package}", name=package)
 
 
@@ -177,7 +177,7 @@ _numbers = itertools.count()
 
 
 def write_complete(path: Path, overwrite: bool, write: Callable[[str], None]) -> None:
-    """Has a file, or a folder, written next to its place, and gives it its name when it is complete.
+    """Write a file or folder next to its place, and rename it when it is complete.
 
     Raises FileExistsError unless ``overwrite``, and what ``write`` raises; then nothing is left.
     """
@@ -215,7 +215,7 @@ def _remove(path: str) -> None:
 
 
 def ending_of(path: Path) -> str:
-    """In lower case, one of ``ENDINGS``. Raises UsageError for others."""
+    """Return the ending in lower case, one of ``ENDINGS``. Raises UsageError for others."""
     name = name_of(path)
     ending = os.path.splitext(name)[1].lower()
     if ending not in ENDINGS:
@@ -224,7 +224,7 @@ def ending_of(path: Path) -> str:
 
 
 def export(trajectory: Trajectory, path: Path, overwrite: bool, springs: bool) -> None:
-    """A trajectory for another program, as ``Trajectory.export()`` says."""
+    """Write a trajectory for another program, as ``Trajectory.export()`` says."""
     ending = ending_of(path)
     if ending == ".zarr":
         trajectory.save(path, overwrite)
@@ -255,14 +255,14 @@ def _by_library(trajectory: Trajectory, path: Path, overwrite: bool) -> None:
 
 
 def scene_of(trajectory: Trajectory) -> Scene:
-    """The scene of a trajectory. Raises UsageError where it is not known."""
+    """Return the scene of a trajectory. Raises UsageError if it is unknown."""
     if trajectory.scene is None:
         raise UsageError("this trajectory does not know its scene, which says what its particles are: record it again")
     return trajectory.scene
 
 
 def recorded(series: Mapping[str, Any], names: Iterable[str]) -> list[Any]:
-    """Series that have to be there. Raises UsageError, which says what to record."""
+    """Return required series. Raises UsageError, which names what to record."""
     of = {plain(name): name for name in series}
     missing = [name for name in names if name not in of]
     if missing:

@@ -28,15 +28,15 @@ class Folder:
         self._core = _aspic.RunFolder(self.path)
 
     def make(self, scene: Scene) -> None:
-        """Makes it where there is none, with the scene that runs differ from. Raises FileError."""
+        """Create the folder if it is missing, with its base scene. Raises FileError."""
         self._core.make(scene._core)
 
     def has(self, scene: Scene) -> bool:
-        """Whether the scene is there. On another machine: whether this is the sweep's folder."""
+        """Return whether the base scene is in the folder, which identifies it on another machine."""
         return os.path.exists(os.path.join(self.path, "scenes", f"{_aspic.scene_key(scene._core)}.toml"))
 
     def keys(self) -> set[str]:
-        """The runs that are there. Raises FileError."""
+        """Return the keys of finished runs. Raises FileError."""
         try:
             names = os.listdir(os.path.join(self.path, "runs"))
         except OSError as error:
@@ -49,7 +49,7 @@ class Folder:
         return None if text is None else json.loads(text)
 
     def write(self, row: Row, trajectory: Trajectory | None = None) -> None:
-        """Keeps a run; one that is there is replaced. Raises FileError."""
+        """Write a run, and replace an existing one. Raises FileError."""
         if trajectory is not None:
             content = io.BytesIO()
             trajectory._write(content)
@@ -57,5 +57,5 @@ class Folder:
         self._core.write(row["key"], "json", (json.dumps(row, indent=1, allow_nan=False) + "\n").encode())
 
     def trajectory(self, key: str) -> str:
-        """The path of a run's trajectory, whether it is there or not."""
+        """Return the path of a run's trajectory, which may be missing."""
         return self._core.file(key, "npz")

@@ -15,7 +15,7 @@ __all__ = ["identity"]
 
 
 def identity(value: Any) -> bytes:
-    """Bytes that differ where a function computes something else.
+    """Return bytes that differ for functions that compute something else.
 
     Its code, defaults, closure and the globals that it reads; of a bound method and a callable object also their state;
     of a ``functools.partial`` its arguments. Raises what ``pickle.dumps()`` raises for values that it cannot take.
@@ -76,7 +76,7 @@ class _Identity:
 
 
 def _installed(function: types.FunctionType) -> bool:
-    """Whether it is part of Python or of a package, whose version says enough."""
+    """Return whether a module belongs to Python or a package, whose version identifies it."""
     places = {sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")}
     file = function.__code__.co_filename
     return any(place is not None and file.startswith(place + os.sep) for place in places)
@@ -91,6 +91,6 @@ def _code(code: types.CodeType) -> Any:
 
 
 def _names(code: types.CodeType) -> set[str]:
-    """Globals and attributes that it or a function within it reads."""
+    """Return the globals and attributes that the code reads, nested functions included."""
     inner = (_names(part) for part in code.co_consts if isinstance(part, types.CodeType))
     return set(code.co_names).union(*inner)

@@ -40,13 +40,13 @@ class Image(np.ndarray):
         return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(name, data) for name, data in parts)
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes a PNG file. Raises FileExistsError unless ``overwrite``, and what ``open()`` raises."""
+        """Write a PNG file. Raises FileExistsError unless ``overwrite``, and what ``open()`` raises."""
         data = self.png()
         with open(path, "wb" if overwrite else "xb") as file:
             file.write(data)
 
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
-        """Results computed from an image are ordinary arrays or numbers."""
+        """Return results computed from an image as ordinary arrays or numbers."""
         plain = np.asarray(array)
         return plain if plain.ndim else plain[()]
 

@@ -36,7 +36,7 @@ class Pull(NamedTuple):
 
 
 def _row(pull: Pull) -> tuple[int, tuple[float, float, float], float, float, bool]:
-    """As the extension module takes it. Raises UsageError."""
+    """Return the row that the extension module takes. Raises UsageError."""
     if not isinstance(pull, Pull):
         raise UsageError(f"a pull is an aspic.Pull(particle, anchor, stiffness), not {pull!r}")
     particle, anchor, stiffness, damping, ball = pull
@@ -57,7 +57,7 @@ class Steerable(Readable):
 
     @property
     def pulls(self) -> tuple[Pull, ...]:
-        """The pulls that act from this step on; may be assigned, one or up to 256. Raises UsageError with the index."""
+        """Pulls that act from this step on; assign one, or up to 256. Raises UsageError with the index."""
         return tuple(Pull(*row) for row in self._core.inputs()[0])
 
     @pulls.setter
@@ -70,7 +70,7 @@ class Steerable(Readable):
 
     @property
     def pinned(self) -> NDArray[np.intp]:
-        """Indices of the particles that are pinned, ascending: the scene's, and what was assigned since.
+        """Indices of pinned particles, ascending: those of the scene, or as assigned.
 
         May be assigned: indices, or (n,) of bool. A particle that moves stops. Raises UsageError for other indices.
         """
@@ -103,7 +103,7 @@ class Steerable(Readable):
 
     @property
     def channels(self) -> tuple[float, ...]:
-        """Numbers by index, which actuators with ``signal = "input"`` read; ``inputs`` has them by name.
+        """Input channels by index, which actuators with ``signal = "input"`` read; ``inputs`` has them by name.
 
         They may be assigned, and are kept and replayed as pulls are; those that are missing are 0. Raises UsageError
         for numbers that are not finite, and for more than the scene's actuators read, where it has any.
@@ -121,7 +121,7 @@ class Steerable(Readable):
 
     @property
     def inputs(self) -> Signals:
-        """The signals of the actuators with ``signal = "input"``, by their names: ``sim.inputs["legs"] = 0.3``.
+        """Signals of the actuators with ``signal = "input"``, by their names: ``sim.inputs["legs"] = 0.3``.
 
         A dict in its place sets several; the others stay. They hold from this step on. Raises UsageError for unknown
         names and numbers that are not finite.
@@ -149,7 +149,7 @@ class Signals(Mapping[str, float]):
         self.update({name: value})
 
     def update(self, values: Mapping[str, float]) -> None:
-        """Sets several."""
+        """Set several signals."""
         channels = list(self._of.channels)
         channels += [0.0] * (len(self._names) - len(channels))
         for name, value in values.items():
@@ -180,16 +180,16 @@ class Replayable(Steerable):
 
     @property
     def input_log(self) -> str:
-        """All inputs so far by step, as TOML: what ``aspic run --replay`` and ``replay()`` read."""
+        """All inputs so far by step, as TOML for ``aspic run --replay`` and ``replay()``."""
         return self._core.log_text()
 
     def save_inputs(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes ``input_log``. Raises FileExistsError unless ``overwrite``, and what ``open()`` raises."""
+        """Write ``input_log``. Raises FileExistsError unless ``overwrite``, and what ``open()`` raises."""
         with open(path, "w" if overwrite else "x", encoding="utf-8") as file:
             file.write(self.input_log)
 
     def replay(self, path: str | os.PathLike[str]) -> None:
-        """Takes over the inputs of a file by step: the run repeats to the bit on every backend.
+        """Load the inputs of a file by step: the run repeats to the bit on every backend.
 
         Later assignments to ``pulls`` and ``pinned`` replace the rest of it. Raises SceneError with every mistake
         and its line; FileError.

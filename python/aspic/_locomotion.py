@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def scenes_of(
     scenes: Scene | Path | Iterable[Scene | Path],
 ) -> tuple[Scene | Path | list[Scene | Path], Scene | Path]:
-    """The scenes, as a list if they are several, and the first of them."""
+    """Return the scenes, as a list if there are several, and the first of them."""
     if isinstance(scenes, (Scene, str, os.PathLike)):
         return scenes, scenes
     several = list(scenes)
@@ -41,7 +41,7 @@ class Locomotion(BatchEnv):
     """The largest component of the velocity at the beginning [m/s]."""
 
     def _keep_start(self) -> NDArray[np.float64]:
-        """Remembers where all centers of mass are; positions, (n, particles, 3)."""
+        """Store the centers of mass of positions, (n, particles, 3)."""
         x = self.batch.positions.astype(np.float64)
         self._masses = np.array([instance.masses for instance in self.batch])[:, :, None]
         self._start = self._center(x)
@@ -49,37 +49,37 @@ class Locomotion(BatchEnv):
         return x
 
     def begin(self, index: int, instance: Instance, random: np.random.Generator) -> None:
-        """All particles get the same velocity, each component within ±``push``."""
+        """Give all particles the same velocity, each component within ±``push``."""
         instance.velocities = instance.velocities + random.uniform(-self.push, self.push, 3)
         self._place[index] = self._start[index, 0]
 
     def judge(self) -> tuple[ArrayLike, ArrayLike]:
-        """How far each went along x since the last step [m]; no episode ends by it."""
+        """Return the displacements along x since the last step [m]; they end no episode."""
         place = self._center(self.batch.positions.astype(np.float64))[:, 0]
         moved = place - self._place
         self._place = place
         return moved, np.zeros(self.num_envs, np.bool_)
 
     def figures(self) -> dict[str, NDArray[Any]]:
-        """The distance since the beginning of the episode [m]."""
+        """Return the distance since the beginning of the episode [m]."""
         return {"distance": self._place - self._start[:, 0]}
 
     def _clock(self) -> NDArray[np.float64]:
-        """Two triangle waves a quarter of ``cycle`` apart, (n, 2)."""
+        """Return two triangle waves a quarter of ``cycle`` apart, (n, 2)."""
         time = self._made * self.every / self.cycle
         return np.stack([4 * np.abs((time + shift) % 1.0 - 0.5) - 1 for shift in (0.0, 0.25)], axis=1)
 
     def _higher(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """How much higher the centers of mass are than at the start [m], (n, 1)."""
+        """Return the heights of the centers of mass above those at the start [m], (n, 1)."""
         return (self._center(x) - self._start)[:, 1:2]
 
     def _center(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Mean by mass, (n, 3), added in the order of the particles, so that it has the same bits everywhere."""
+        """Return the center of mass, (n, 3), summed in the order of the particles: the same bits everywhere."""
         sums = np.cumsum(self._masses * vectors, axis=1)[:, -1]
         return sums / np.cumsum(self._masses, axis=1)[:, -1]  # type: ignore[no-any-return]
 
 
 def seen(*parts: NDArray[Any]) -> Floats:
-    """An observation of its parts side by side, within ±10."""
+    """Return an observation of its parts side by side, within ±10."""
     observations: Floats = np.clip(np.concatenate(parts, axis=1), -10, 10).astype(np.float32)
     return observations

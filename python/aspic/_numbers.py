@@ -19,7 +19,7 @@ MOST_FPS = 1000
 
 
 def whole(value: Any, what: str, least: int = 0, most: int = MOST_STEPS) -> int:
-    """A whole number. Raises UsageError for others, also for bool, and outside of the range."""
+    """Return a whole number. Raises UsageError for others, also for bool, and outside of the range."""
     try:
         if isinstance(value, bool):
             raise TypeError
@@ -32,7 +32,7 @@ def whole(value: Any, what: str, least: int = 0, most: int = MOST_STEPS) -> int:
 
 
 def positive(value: Any, what: str, zero: bool = False, most: float = float("inf")) -> float:
-    """A finite number above 0, or from 0 on. Raises UsageError."""
+    """Return a finite number above 0, or from 0 on. Raises UsageError."""
     range_ = ("0 or more" if zero else "more than 0") + (f", at most {most:g}" if most < float("inf") else "")
     try:
         number = float(value)
@@ -51,7 +51,10 @@ def pace(fps: Any, speed: Any) -> None:
 
 
 def floats(numbers: Any, shape: tuple[int, ...], what: str, single: bool = False) -> NDArray[np.float64]:
-    """Finite real numbers of that shape, in single precision too if ``single``. Raises UsageError for others: None, masked and complex ones among them."""
+    """Return finite real numbers of that shape, in single precision too if ``single``.
+
+    Raises UsageError for others, such as None, masked or complex ones.
+    """
     import numpy as np
 
     try:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def find() -> str:
-    """The path of the program. Raises FileError where it is not found."""
+    """Return the path of the program. Raises FileError if it is missing."""
     import shutil
 
     named = os.environ.get("ASPIC_PROGRAM")
@@ -28,7 +28,7 @@ def find() -> str:
 
 
 def view(name: str, toml: str) -> subprocess.Popen[bytes]:
-    """Opens the window with a scene. Raises FileError where the program is not found."""
+    """Open the window with a scene. Raises FileError if the program is missing."""
     import shutil
     import subprocess
     import tempfile

@@ -26,9 +26,9 @@ class Measures(NamedTuple):
     """Diagnostics of a state, in double precision whatever the state's own."""
 
     energy: Energy
-    """[J]; ``energy.total`` is its sum."""
+    """Energies [J]; ``energy.total`` is its sum."""
     momentum: NDArray[np.float64]
-    """Σ m v of what is not pinned, (3,) [N·s]."""
+    """Momentum Σ m v of particles that are not pinned, (3,) [N·s]."""
     max_speed: float
     """[m/s]."""
     min_height: float
@@ -80,7 +80,7 @@ class Readable(Unshared):
 
     @property
     def scene(self) -> Scene:
-        """A copy of the scene as it is simulated."""
+        """Copy of the scene with its present constants."""
         return Scene._of(self._core.scene)
 
     @property
@@ -90,7 +90,7 @@ class Readable(Unshared):
 
     @property
     def timestep(self) -> float:
-        """h [s]."""
+        """Time step h [s]."""
         return self._core.scene.timestep
 
     @property
@@ -100,7 +100,7 @@ class Readable(Unshared):
 
     @property
     def springs(self) -> Springs:
-        """Every spring."""
+        """All springs."""
         return Springs(*self._core.springs())
 
     @property
@@ -110,11 +110,11 @@ class Readable(Unshared):
 
     @property
     def balls(self) -> list[Ball]:
-        """Every ball by its index."""
+        """All balls, by index."""
         return [Ball(self, i, *row) for i, row in enumerate(self._core.balls())]
 
     def __getitem__(self, name: str) -> Any:
-        """The Body ``"cube[0]"`` (or ``"cube"``, the first one), one by its own name, or the Ball ``"ball[0]"``.
+        """Return the Body ``"cube[0]"`` (or ``"cube"``, the first one), one by its own name, or the Ball ``"ball[0]"``.
 
         ``"worm"`` and ``"voxels[worm]"`` are the body that a scene names so. Raises UsageError.
         """
@@ -143,12 +143,12 @@ class Readable(Unshared):
 
     @property
     def time(self) -> float:
-        """Steps × h [s]."""
+        """Time, steps × h [s]."""
         return self.steps * self.timestep
 
     def read(self, field: str, out: Any = None) -> Any:
-        """A field of the state: ``"positions"``, ``"velocities"``, ``"ball_positions"``, ``"ball_velocities"`` or
-        ``"ball_angular_velocities"``.
+        """Return a field of the state: ``"positions"``, ``"velocities"``, ``"ball_positions"``, ``"ball_velocities"``
+        or ``"ball_angular_velocities"``.
 
         ``out``: an array (n, 3) of float32 or float64, with any strides, which is filled and returned; None: a new one.
         Raises UsageError for an unknown field or another n.
@@ -201,7 +201,7 @@ class Readable(Unshared):
 
     @property
     def ball_angular_velocities(self) -> Floats:
-        """ω of the balls, (b, 3) [rad/s]."""
+        """Angular velocities of the balls, (b, 3) [rad/s]."""
         return self.read("ball_angular_velocities")  # type: ignore[no-any-return]
 
     @property
@@ -211,22 +211,22 @@ class Readable(Unshared):
 
     @property
     def _motion(self) -> Measures:
-        """The same with an elastic energy of 0, without a pass over springs and contacts."""
+        """Measures with an elastic energy of 0, without a pass over springs and contacts."""
         return _measures(self._core.motion())
 
     @property
     def energy(self) -> Energy:
-        """[J]; ``energy.total`` is the sum of kinetic, elastic and gravitational energy."""
+        """Energies [J]; ``energy.total`` is the sum of kinetic, elastic and gravitational energy."""
         return self.measures.energy
 
     @property
     def momentum(self) -> NDArray[np.float64]:
-        """Σ m v of what is not pinned, (3,) [N·s]."""
+        """Momentum Σ m v of particles that are not pinned, (3,) [N·s]."""
         return self._motion.momentum
 
     @property
     def quantities(self) -> Quantities:
-        """Speeds, strains, forces and contacts as they are; ``run()`` records them by their names."""
+        """Present speeds, strains, forces and contacts; ``run()`` records them by their names."""
         speed, mean_strain, force, contact_force, contact, strain, tension = self._core.quantities()
         return Quantities(speed, mean_strain, force, contact_force, contact.astype("bool"), strain, tension)
 
@@ -254,7 +254,7 @@ def _measures(row: tuple[float, float, float, tuple[float, float, float], float,
 
 
 def _overlaps(out: Any) -> bool:
-    """Whether numbers of an array (n, 3) may share memory."""
+    """Return whether numbers of an array (n, 3) may share memory."""
     axes = sorted((abs(stride), count) for stride, count in zip(out.strides, out.shape) if count > 1)
     reach = out.itemsize
     for stride, count in axes:

@@ -60,12 +60,12 @@ class Result(NamedTuple):
 
 
 def order(study: Study, scene: Scene, differences: Differences) -> Order:
-    """The run of a sweep's scene with differences. Raises UsageError for the words of a backend that are none."""
+    """Return the run of a sweep's scene with differences. Raises UsageError for an unknown backend."""
     return _aspic.sweep_run(scene._core, study.backend, study.doubles, list(differences), study.steps, study.duration)
 
 
 def is_made(study: Study, row: Row | None) -> bool:
-    """Whether a run's file has all that is asked for. One that failed may succeed."""
+    """Return whether a run's file has everything requested. A failed run may be repeated."""
     if row is None or row["outcome"] == "failed":
         return False
     if row["outcome"] == "ok":
@@ -77,21 +77,21 @@ def is_made(study: Study, row: Row | None) -> bool:
 
 
 def row_of(study: Study, run: Order, outcome: str, reason: str, **result: Any) -> Row:
-    """The row of a run; without figures unless ``result`` has them."""
+    """Return the row of a run; without metrics unless ``result`` has them."""
     reason = " ".join(reason.split()).encode("utf-8", "replace").decode()
     row: Row = json.loads(run.file(_scene_key(study.scene, study.name), outcome, reason, **result))
     return row
 
 
 def rejected_row(study: Study, run: Order) -> Row:
-    """The row of a run that its scene or backend refused."""
+    """Return the row of a run that its scene or backend rejected."""
     code, message = run.error or (0, "")
     # Its first line says what is wrong; others show where.
     return row_of(study, run, "rejected", str(error_of(code, message)).split("\n")[0])
 
 
 def scene_of(study: Study) -> Scene:
-    """The scene that runs differ from."""
+    """Return the base scene of the runs."""
     return _read(study.scene, study.name)
 
 
@@ -160,7 +160,7 @@ class _Running:
 
 
 def number(value: Any) -> Any:
-    """A metric's value as a table has it. Raises UsageError for what has no place in a cell."""
+    """Return a metric's value for a table. Raises UsageError for values that fit no cell."""
     import math
 
     if hasattr(value, "item") and getattr(value, "shape", None) == ():
@@ -174,7 +174,7 @@ def number(value: Any) -> Any:
 
 
 def _marks(study: Study, steps: int, timestep: float) -> Iterator[tuple[int, bool, bool]]:
-    """After which steps states are taken, for the figures and for the record."""
+    """Return the steps after which states are sampled, for the metrics and for the record."""
     stride = _aspic.RunFigures.interval(timestep)
     k, figure, record = 0, stride, _next_sample(study, steps, timestep, 0, 0)
     done = 0
@@ -189,7 +189,7 @@ def _marks(study: Study, steps: int, timestep: float) -> Iterator[tuple[int, boo
 
 
 def _next_sample(study: Study, steps: int, timestep: float, k: int, done: int) -> tuple[int, int]:
-    """The step of the next sample of the record as Simulation.run() has it, and its number; beyond the end: none."""
+    """Return the step and number of the next sample, as in Simulation.run(); beyond the end: none."""
     if study.every is None:
         return (steps, 1) if k == 0 else (steps + 1, k)
     while True:
@@ -200,7 +200,7 @@ def _next_sample(study: Study, steps: int, timestep: float, k: int, done: int) -
 
 
 def _drive(study: Study, runs: Sequence[_Running], advance: Callable[[int], None]) -> None:
-    """Steps runs of one time step and number of steps to their ends."""
+    """Advance runs of one time step and number of steps to their ends."""
     steps, timestep = runs[0].run.steps, runs[0].where.timestep
     for run in runs:
         run.take(True, True)
@@ -223,7 +223,7 @@ def _reason(found: tuple[int, int, bool, str]) -> str:
 
 
 def _alone(study: Study, run: Order, backend: str) -> tuple[Row, Trajectory | None]:
-    """Makes a run with a separate solver."""
+    """Run with a separate solver."""
     simulation = Simulation._quiet(
         Scene._of(run.scene), backend, threads=study.threads if backend.startswith("cpu") else 0
     )
@@ -239,7 +239,7 @@ def _alone(study: Study, run: Order, backend: str) -> tuple[Row, Trajectory | No
 
 
 def _together(study: Study, runs: Sequence[Order]) -> list[_Running]:
-    """Steps runs of one time step and number of steps as a batch."""
+    """Advance runs of one time step and number of steps as a batch."""
     batch = Batch([Scene._of(run.scene) for run in runs], threads=study.threads)
     running = [_Running(study, run, instance, "batch") for run, instance in zip(runs, batch)]
 
@@ -256,13 +256,13 @@ def _together(study: Study, runs: Sequence[Order]) -> list[_Running]:
 
 @functools.lru_cache(maxsize=1)
 def smallest() -> Simulation:
-    """A simulation that costs nothing, of a scene that does not matter."""
+    """Return a simulation of the smallest scene."""
     return Simulation(load("cube-plane", {"cube[0].particles-per-edge": 2}), "reference")
 
 
 @functools.lru_cache(maxsize=8)
 def _taken(backend: str) -> str:
-    """Backend that ``auto`` takes on this machine, determined once."""
+    """Return the backend that ``auto`` selects on this machine, determined once."""
     return Simulation(smallest().scene, backend).backend.split(":")[0]
 
 
@@ -275,7 +275,7 @@ def _backend(run: Order) -> str:
 
 
 def make_runs(study: Study, batch: Sequence[Differences]) -> list[Result]:
-    """Makes runs of a sweep, and keeps them in its folder where this process sees it. One that fails has a row."""
+    """Make the runs of a sweep, and store them in its folder if this process can. Failed runs have rows too."""
     scene = scene_of(study)
     folder = Folder(study.folder) if study.folder is not None else None
     if folder is not None and not folder.has(scene):
@@ -301,7 +301,7 @@ def make_runs(study: Study, batch: Sequence[Differences]) -> list[Result]:
 
 
 def _groups(study: Study, runs: Sequence[Order]) -> Iterator[list[Order]]:
-    """Runs that are made together: small ones of one time step and number of steps on the CPU."""
+    """Yield runs that advance together: small ones of one time step and number of steps on the CPU."""
     alike: dict[Any, list[Order]] = {}
     for run in runs:
         if run.error is not None or run.particles > SMALL or run.doubles:
@@ -314,7 +314,7 @@ def _groups(study: Study, runs: Sequence[Order]) -> Iterator[list[Order]]:
 
 
 def _made(study: Study, runs: list[Order]) -> Iterator[tuple[Row, Trajectory | None]]:
-    """Rows one after the other, so that each can be kept before the next is made."""
+    """Yield rows one by one, so that each can be stored before the next run."""
     first = runs[0]
     if first.error is not None:
         yield rejected_row(study, first), None

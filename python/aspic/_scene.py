@@ -46,23 +46,23 @@ class Parameter(NamedTuple):
 
 
 def scenes() -> list[BuiltinScene]:
-    """All built-in scenes, in the order in which they are listed for users."""
+    """Return all built-in scenes, in the order of ``aspic scene list``."""
     return [BuiltinScene(*row) for row in _aspic.builtin_scenes()]
 
 
 def parameters() -> list[Parameter]:
-    """Every key that a scene may have, in the order of files."""
+    """Return every key that a scene may have, in the order of files."""
     return [Parameter(*row) for row in _aspic.parameters()]
 
 
 @functools.cache
 def _of_the_start() -> frozenset[str]:
-    """Keys that only say how a run begins, or of what it is made."""
+    """Return the keys that only define the start of a run or its bodies."""
     return frozenset(parameter.path for parameter in parameters() if not parameter.live)
 
 
 def changes(values: Mapping[str, Any]) -> list[str]:
-    """Keys and values that may change while a simulation runs, as arguments of --set. Raises UsageError for others."""
+    """Return keys and values that may change during a run, as arguments of --set. Raises UsageError for others."""
     words = assignments(values)
     for key in values:
         if re.sub(r"\[[^]]*\]", "[]", key) in _of_the_start():
@@ -85,7 +85,7 @@ class Scene(Buildable):
     _empty: SceneError
 
     def __init__(self, text: str = "schema = 1\n", name: str = "scene", overrides: Mapping[str, Any] | None = None):
-        """Reads TOML text.
+        """Read TOML text.
 
         ``name``: for messages, and for titles where the text gives none; ``overrides``: keys and values set afterwards.
         Raises SceneError with every mistake, its line and the nearest word. A scene in which nothing moves yet may be
@@ -96,7 +96,7 @@ class Scene(Buildable):
         self._extend(assignments(overrides))
 
     def _extend(self, words: list[str]) -> None:
-        """Takes arguments of --set; of a scene that is empty, keeps them until it is not."""
+        """Apply arguments of --set; an empty scene stores them until it has a body."""
         if self._draft is None:
             self._read, notes = self._read.with_overrides(words)
         else:
@@ -131,17 +131,17 @@ class Scene(Buildable):
 
     @property
     def name(self) -> str:
-        """For titles and reports."""
+        """Name of the scene, for titles and reports."""
         return self._core.name
 
     @property
     def toml(self) -> str:
-        """A complete scene file, units as comments; reading it gives the same values to the bit."""
+        """Complete scene file with units as comments; reading it gives the same values to the bit."""
         return self._core.to_toml()
 
     @property
     def bodies(self) -> list[str]:
-        """The names of the bodies: ``cube[0]``, ``voxels[0]``, ``goal-net[0]``, ``cloth[0]``."""
+        """Names of the bodies: ``cube[0]``, ``voxels[0]``, ``goal-net[0]``, ``cloth[0]``."""
         return self._core.bodies()
 
     @property
@@ -150,7 +150,7 @@ class Scene(Buildable):
         return list(self._notes)
 
     def __getitem__(self, key: str) -> Any:
-        """The value of a key: a number, word, tuple (vectors) or list; None where it is absent or has no meaning here.
+        """Return the value of a key: a number, word, tuple (vectors) or list; None if absent or meaningless here.
         For a table, ``scene["simulation"]``, it is a dict of its keys.
 
         Raises SceneError (a ValueError) for an unknown key, with the nearest one.
@@ -165,15 +165,15 @@ class Scene(Buildable):
             raise SceneError(str(error).replace(f"{key}=0", key)) from None
 
     def get(self, key: str, default: Any = None) -> Any:
-        """The value of a key; ``default`` where the scene has no such key."""
+        """Return the value of a key; ``default`` where the scene has no such key."""
         return self[key] if key in self else default
 
     def items(self) -> list[tuple[str, Any]]:
-        """Every key with its value."""
+        """Return every key with its value."""
         return [(key, self._core.value(key)) for key in self.keys()]
 
     def values(self) -> list[Any]:
-        """The value of every key."""
+        """Return the value of every key."""
         return [value for _, value in self.items()]
 
     def __delitem__(self, key: str) -> NoReturn:
@@ -183,7 +183,7 @@ class Scene(Buildable):
         )
 
     def __setitem__(self, key: str, value: Any) -> None:
-        """Sets a key; a dict sets several of a table.
+        """Set a key; a dict sets several of a table.
 
         Raises SceneError (a ValueError), and then the scene is as before: an unknown key, with the nearest one; a value
         of another kind or out of range.
@@ -191,11 +191,11 @@ class Scene(Buildable):
         self.update({key: value})
 
     def update(self, values: Mapping[str, Any]) -> None:
-        """Sets several keys at once: all, or none if it raises SceneError. Keys may depend on each other."""
+        """Set several keys at once: all, or none if it raises SceneError. Keys may depend on each other."""
         self._extend(assignments(values))
 
     def copy(self, values: Mapping[str, Any] | None = None) -> Scene:
-        """Another scene with the same values, but for those given. Raises SceneError."""
+        """Return another scene with the same values, except those given. Raises SceneError."""
         other = Scene.__new__(Scene)
         other.__dict__.update(self.__dict__, _notes=list(self._notes))
         if values:
@@ -221,7 +221,7 @@ class Scene(Buildable):
         return key in self._core.keys()
 
     def keys(self) -> list[str]:
-        """Every key that has a meaning in this scene, with indices."""
+        """Return every key that has a meaning in this scene, with indices."""
         return self._core.keys()
 
     _ipython_key_completions_ = keys
@@ -239,12 +239,12 @@ class Scene(Buildable):
         return f"<aspic.Scene {self.name!r}: {', '.join(self.bodies) or 'no bodies'}>"
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes the scene file. Raises FileExistsError unless ``overwrite``, and what ``open()`` raises."""
+        """Write the scene file. Raises FileExistsError unless ``overwrite``, and what ``open()`` raises."""
         with open(path, "w" if overwrite else "x", encoding="utf-8") as file:
             file.write(self.toml)
 
     def stable_timestep(self, thorough: bool = False) -> float | None:
-        """The largest stable time step of the scene's integrator, springs linearized at rest [s].
+        """Return the largest stable time step of the scene's integrator [s], springs linearized at rest.
 
         Infinite where nothing limits it (implicit Euler); None where some mode grows at any step (explicit Euler
         without damping). ``thorough``: seconds of work for a sharper bound; the true limit is this or larger.
@@ -252,7 +252,7 @@ class Scene(Buildable):
         return self._core.stable_step(thorough)[0]
 
     def view(self) -> Any:
-        """Opens the window at the scene's start, and returns its process (``subprocess.Popen``) at once.
+        """Open the window at the scene's start, and return its process (``subprocess.Popen``) at once.
 
         Needs the program ``aspic`` with its window: in PATH, or named by the environment variable ASPIC_PROGRAM. Raises
         FileError where it is not found.
@@ -261,7 +261,7 @@ class Scene(Buildable):
 
 
 def load(name: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Scene:
-    """Reads a built-in scene by its name, or else a scene file.
+    """Read a built-in scene by its name, or else a scene file.
 
     ``overrides``: keys and values as ``Scene.update()`` takes them. Write ``./cube-plane`` for a file with a built-in's
     name. Raises SceneError with every mistake, its line and the nearest word; FileError for a path that cannot be read.

@@ -111,7 +111,7 @@ class Simulation(Replayable):
 
     @classmethod
     def _quiet(cls, scene: Scene, backend: str, doubles: bool | None = None, threads: int = 0) -> Simulation:
-        """One for the package's own use, without warnings."""
+        """Return a simulation for the package's own use, without warnings."""
         simulation = cls.__new__(cls)
         simulation._core = _aspic.Simulation(scene._core, backend, doubles, threads)
         simulation._core.new_warnings()
@@ -131,11 +131,11 @@ class Simulation(Replayable):
 
     @property
     def reason(self) -> str:
-        """Why ``"auto"`` took this backend; empty if it was named."""
+        """Reason for which ``"auto"`` selected this backend; empty if it was named."""
         return self._core.reason
 
     def peek(self, field: str) -> Any:
-        """A field of the state in the solver's memory, without a copy: a read-only array (n, 3), with strides.
+        """Return a field of the state in the solver's memory, without a copy: a read-only array (n, 3), with strides.
 
         While such an array exists, what would change the state raises BufferError. Raises UsageError on the backend
         gpu, whose state is on the device.
@@ -176,13 +176,13 @@ class Simulation(Replayable):
 
     @property
     def solves(self) -> SolveStatistics | None:
-        """How implicit Euler's solves ended since the state was loaded; None with other integrators."""
+        """Statistics of implicit Euler's solves since the state was loaded; None with other integrators."""
         row = self._core.solves()
         return None if row is None else SolveStatistics(*row)
 
     @property
     def warnings(self) -> list[Diagnostic]:
-        """All that was warned of so far, at the start and on the way."""
+        """All warnings so far, of the scene and the run."""
         return [Diagnostic(*row) for row in self._core.warnings()]
 
     def run(
@@ -194,13 +194,14 @@ class Simulation(Replayable):
         record: Sequence[str] = ("energy",),
         controls: ArrayLike | None = None,
     ) -> Trajectory:
-        """Steps, and records on the way.
+        """Advance and record.
 
         ``duration`` [s] or ``steps``: how far from here; neither: to the end of the scene's duration. ``every``: the
         interval of samples [s], the first at once, each at the step nearest to its time; None: the start and the end
         alone. ``record``: ``"energy"``, ``"momentum"``, ``"center-of-mass"``, ``"positions"``, ``"velocities"``,
         ``"max-speed"``, ``"min-height"``, ``"hash"``, ``"actuator-work"`` [J], added up over the samples, and of a body
-        ``"cube[0].positions"``, ``"….velocities"``, ``"….center-of-mass"``, ``"….momentum"``. Also ``"speed"``, ``"force"``, ``"contact-force"``, ``"contact"``,
+        ``"cube[0].positions"``, ``"….velocities"``, ``"….center-of-mass"``, ``"….momentum"``. Also ``"speed"``,
+        ``"force"``, ``"contact-force"``, ``"contact"``,
         ``"mean-strain"`` of particles, ``"strain"`` and ``"tension"`` of springs, ``"ball-positions"``,
         ``"ball-velocities"``, ``"ball-angular-velocities"``; ``"motion"`` is all that exports hold. ``controls``: the
         ``inputs`` by step, (steps, inputs), in their order; the run has one step per row. Raises UsageError for
@@ -233,7 +234,7 @@ class Simulation(Replayable):
         every: float = 0.02,
         overwrite: bool = False,
     ) -> None:
-        """Steps, and writes the motion for other programs on the way, as docs/exports.md says.
+        """Advance and write the motion for other programs (docs/exports.md).
 
         ``path``: .pvd (ParaView), .pc2 (Blender) or .npz (numpy), which take no memory for it, .zarr, or .usd, .usda,
         .usdc by the package usd-core; ``duration``, ``steps``, ``every``: as ``run()``. Ctrl-C and a divergence leave
@@ -305,7 +306,7 @@ class Simulation(Replayable):
         return done, None, False
 
     def compare(self, other: Simulation, steps: int) -> int | None:
-        """Steps both at once, and returns the first step whose states differ in any bit; None if none does.
+        """Advance both, and return the first step whose states differ in any bit; None if none does.
 
         Both stop at that step, or where they diverge alike. Raises UsageError where they have other numbers of
         particles or balls. ``aspic.compare()`` compares two states as they are.
@@ -315,7 +316,7 @@ class Simulation(Replayable):
         return self._core.compare(other._core, whole(steps, "a number of steps"))
 
     def update(self, values: Mapping[str, Any]) -> None:
-        """Changes constants while it runs: stiffnesses, masses, gravity, contact, the time step.
+        """Change constants during the run: stiffnesses, masses, gravity, contact, the time step.
 
         ``values``: keys and values as ``Scene.update()`` takes them. State, time and inputs stay: with another time step
         the steps so far have other numbers. Another frequency keeps the present phase, which changes the scene's
@@ -328,7 +329,7 @@ class Simulation(Replayable):
     # States and files.
 
     def save(self, path: Path | None = None, overwrite: bool = False) -> State:
-        """A copy of the state with the inputs so far, for ``load()``.
+        """Return a copy of the state with the inputs so far, for ``load()``.
 
         ``path``: also writes a file: ``.csv`` or ``.vtp``, the state as a table or for ParaView; other endings, a
         checkpoint with the scene, for ``aspic.resume()`` and ``aspic run --resume``. Raises FileError, also where the
@@ -343,7 +344,7 @@ class Simulation(Replayable):
         return State(self._core.state(), self._core.log())
 
     def load(self, state: State) -> None:
-        """Goes to a state of the same model, with its inputs. Forgets a divergence. Raises UsageError."""
+        """Load a state of the same model, with its inputs, and clear a divergence. Raises UsageError."""
         if not isinstance(state, State):
             raise UsageError(f"load() takes a State, as save() returns, not {type(state).__name__}")
         self._core.load(state._core, state._log)
@@ -407,7 +408,7 @@ class Simulation(Replayable):
         live: bool = False,
         overwrite: bool = False,
     ) -> None:
-        """Steps, and writes the run as one HTML file that browsers show without a network (docs/page.md).
+        """Advance and write the run as one HTML file that browsers show without a network (docs/page.md).
 
         ``duration``, ``steps``: as ``run()``; ``fps``, ``speed``: as ``video()``; ``live``: the page holds no frames,
         but simulates the run in the browser and compares the bits. Where ``aspic run`` of a built-in scene would write
@@ -427,7 +428,7 @@ class Simulation(Replayable):
             raise diverged(found)
 
     def view(self) -> Any:
-        """Opens the window with this simulation's scene at its start, as ``Scene.view()``; the state stays here."""
+        """Open the window with this simulation's scene at its start, as ``Scene.view()``; the state stays here."""
         return self.scene.view()
 
     # Parts.
@@ -461,7 +462,7 @@ _WARNINGS = {
 
 
 def _raise(made: Made) -> None:
-    """The exception or divergence that ended steps early, if any."""
+    """Raise the exception or divergence that ended steps early, if any."""
     _, found, stopped = made
     if found:
         raise diverged(found)
@@ -475,7 +476,7 @@ def _check_size(width: int, height: int) -> None:
 
 
 def resume(path: Path, backend: str = "auto", *, threads: int = 0) -> Simulation:
-    """A simulation that continues a checkpoint of ``Simulation.save()`` or ``aspic run --checkpoint`` to the bit.
+    """Return a simulation that continues a checkpoint, of ``Simulation.save()`` or ``aspic run``, to the bit.
 
     Scene, state, precision and inputs are the file's. Raises FileError, SceneError, and what ``Simulation()`` raises.
     """

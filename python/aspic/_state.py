@@ -24,7 +24,7 @@ FIELDS = ("positions", "velocities", "ball_positions", "ball_velocities", "ball_
 
 
 def field_index(name: str) -> int:
-    """The number of a field. Raises UsageError for a name that is none."""
+    """Return the number of a field. Raises UsageError for an unknown name."""
     try:
         return FIELDS.index(name.replace("-", "_"))
     except ValueError:
@@ -62,12 +62,12 @@ class State:
         return self._core.hash
 
     def read(self, field: str) -> Floats:
-        """A copy of a field: ``"positions"``, ``"velocities"``, ``"ball_positions"``, … Raises UsageError."""
+        """Return a copy of a field: ``"positions"``, ``"velocities"``, ``"ball_positions"``, … Raises UsageError."""
         numbers = self._core.read(field_index(field))
         return numbers if self._core.doubles else numbers.astype("float32")
 
     def write(self, field: str, numbers: ArrayLike) -> None:
-        """Replaces a field by finite numbers of the shape (n, 3). Raises UsageError for others."""
+        """Replace a field by finite numbers of the shape (n, 3). Raises UsageError for others."""
         index = field_index(field)
         self._core.write(index, floats(numbers, self._core.read(index).shape, field, not self._core.doubles))
 
@@ -90,7 +90,7 @@ class State:
         self.write("velocities", numbers)
 
     def copy(self) -> State:
-        """Another one with the same numbers and inputs."""
+        """Return a copy with the same numbers and inputs."""
         return State(self._core.copy(), self._log)
 
     __copy__ = copy
@@ -133,7 +133,7 @@ class Difference(Mapping[str, QuantityDifference]):
 
     @property
     def identical(self) -> bool:
-        """Whether every bit is the same; −0 and +0 differ."""
+        """True if all bits are equal; −0 and +0 differ."""
         return all(part.ulp == 0 for part in self._parts.values())
 
     def __getitem__(self, quantity: str) -> QuantityDifference:
@@ -153,7 +153,7 @@ class Difference(Mapping[str, QuantityDifference]):
 
 
 def compare(a: State | Simulation, b: State | Simulation) -> Difference:
-    """Compares two states, or simulations as they are, component by component.
+    """Compare two states, or the present states of simulations, component by component.
 
     Raises UsageError where they have other numbers of particles or balls.
     """

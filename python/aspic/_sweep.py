@@ -62,7 +62,7 @@ def sweep(
     submit: Mapping[str, Any] | None = None,
     progress: Callable[[int, int], Any] | None = None,
 ) -> Table:
-    """Runs a scene with every combination of values, and returns a table with a row for each run.
+    """Run a scene with every combination of values; return a table with a row for each run.
 
     ``scene``: one, or what ``aspic.load()`` takes. ``vary``: keys, each with its values, of which all combinations are
     made, the last key varying fastest; or dicts, a run each. A key is a path of ``--set``, ``"backend"``, or a short
@@ -191,7 +191,7 @@ class _Rows:
         self._tell()
 
     def tasks(self, batch: int | None, workers: int) -> list[Sequence[Differences]]:
-        """The remaining runs, cut into tasks: small runs of one time step and length are in one."""
+        """Return the remaining runs as tasks; small runs of one time step and length share one."""
         groups: dict[Any, list[Differences]] = {}
         for alike, point in self._left.values():
             groups.setdefault(alike, []).append(point)
@@ -199,7 +199,7 @@ class _Rows:
         return [group[i : i + size] for group in groups.values() for i in range(0, len(group), size)]
 
     def take(self, task: Sequence[Differences], results: Any) -> None:
-        """The results of a task, or the exception in their place."""
+        """Add the results of a task, or its exception."""
         if isinstance(results, BaseException):
             results = [self._lost(order(self._study, self._scene, point), _why(results)) for point in task]
         for result in results:
@@ -207,14 +207,14 @@ class _Rows:
         self._tell()
 
     def _lost(self, run: Order, reason: str) -> Result:
-        """A run of a task that ended with an exception; it may have been kept before."""
+        """Return the row of a run whose task ended with an exception; it may have been stored before."""
         row = self._folder.read(run.key) if self._folder else None
         if row is not None and is_made(self._study, row):
             return Result(row, True)
         return Result(row_of(self._study, run, "failed", reason), False)
 
     def in_order(self) -> list[Row]:
-        """Those of the points, in their order."""
+        """Return the rows of the points, in their order."""
         return [self._rows[key] for key in self._keys]
 
     def _take(self, result: Result) -> None:
@@ -232,7 +232,7 @@ class _Rows:
 
 
 def _why(error: BaseException) -> str:
-    """An exception in a line. One that tells of another by its trace: also that one."""
+    """Return an exception in a line, with its cause."""
     import re
 
     lines = f"{type(error).__name__}: {error}".strip().split("\n")
@@ -241,7 +241,7 @@ def _why(error: BaseException) -> str:
 
 
 def _size(runs: int, workers: int) -> int:
-    """Runs of a task: at least as many as share the lanes of vector registers, few enough for all workers."""
+    """Return the number of runs in a task: at least as many as share vector lanes, few enough for all workers."""
     share = math.ceil(runs / (4 * workers)) if workers else 16
     return min(64, max(16, 16 * math.ceil(share / 16)))
 
@@ -262,7 +262,7 @@ def _points(vary: Vary) -> list[Differences]:
 
 
 def _word(key: Any, value: Any) -> str:
-    """A value as --vary takes it."""
+    """Return a value as --vary takes it."""
     if not isinstance(key, str) or "=" in key:
         raise UsageError(f"a key of a sweep is a path such as 'cube[0].edge-length', or a short name, not {key!r}")
     if key in _SHORT and isinstance(value, str):
@@ -320,7 +320,7 @@ class _Asked(Trajectory):
 
 
 def _asked(scene: Scene, metrics: Mapping[str, Metric]) -> list[str]:
-    """Names that metrics read from a trajectory. Raises UsageError for those that cannot be recorded."""
+    """Return the names that metrics read from a trajectory. Raises UsageError for those that cannot be recorded."""
     if not metrics:
         return []
     import warnings
@@ -350,7 +350,7 @@ def _asked(scene: Scene, metrics: Mapping[str, Metric]) -> list[str]:
 
 
 def _recipe(name: str, metric: Metric, record: Sequence[str], every: float | None) -> str:
-    """A hash of what computes a metric and of what it is computed from. Empty, with a warning: it has none."""
+    """Return a hash of a metric's function and its data. Empty, with a warning: it has none."""
     import hashlib
     import warnings
 

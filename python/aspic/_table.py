@@ -59,16 +59,16 @@ class Table(Mapping[str, list[Any]]):
         return iter(self._columns)
 
     def __len__(self) -> int:
-        """Columns; ``size`` counts runs."""
+        """Return the number of columns; ``size`` counts runs."""
         return len(self._columns)
 
     @property
     def size(self) -> int:
-        """Runs."""
+        """Number of runs."""
         return len(self._files)
 
     def rows(self) -> Iterator[dict[str, Any]]:
-        """Each run as a dict of its cells."""
+        """Return each run as a dict of its cells."""
         return (dict(zip(self._columns, cells)) for cells in zip(*self._columns.values()))
 
     def __repr__(self) -> str:
@@ -76,21 +76,21 @@ class Table(Mapping[str, list[Any]]):
         return f"<aspic.Table: {self.size} runs ({', '.join(f'{n} {name}' for name, n in counts.items())})>"
 
     def __str__(self) -> str:
-        """The first ten runs: what was varied, their outcome, and the metrics."""
+        """Return the first ten runs as text: varied values, outcome and metrics."""
         cells = [self._shown] + [[_cell(self._columns[n][run]) for n in self._shown] for run in range(min(self.size, 10))]
         widths = [max(map(len, column)) for column in zip(*cells)]
         lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in cells]
         return "\n".join([*lines, repr(self)])
 
     def trajectory(self, run: int) -> Trajectory:
-        """Trajectory of a run, if it was recorded. Raises UsageError where there is none."""
+        """Return the trajectory of a run. Raises UsageError if it was not recorded."""
         path = self._folder.trajectory(self["key"][run]) if self._folder else ""
         if not os.path.exists(path):
             raise UsageError(f"run {run} has no trajectory: aspic.sweep(…, trajectories=True, out=…) keeps them")
         return Trajectory.load(path)
 
     def save(self, path: Path, overwrite: bool = False) -> None:
-        """Writes ``.csv``, or ``.parquet`` (needs the package pyarrow).
+        """Write ``.csv``, or ``.parquet`` (needs the package pyarrow).
 
         Raises UsageError for another ending, FileExistsError unless ``overwrite``, and what ``open()`` raises.
         """
@@ -112,13 +112,13 @@ class Table(Mapping[str, list[Any]]):
             raise UsageError(f"a table is saved as .csv or .parquet, not as {name!r}")
 
     def to_pandas(self) -> Any:
-        """A ``pandas.DataFrame``; needs the package pandas."""
+        """Return a ``pandas.DataFrame``; needs the package pandas."""
         import pandas  # type: ignore[import-not-found, import-untyped, unused-ignore]
 
         return pandas.DataFrame(self._uniform())
 
     def to_xarray(self, trajectories: bool = False) -> Any:
-        """An ``xarray.Dataset`` with a dimension for each key that was varied; needs the package xarray.
+        """Return an ``xarray.Dataset`` with a dimension for each key that was varied; needs the package xarray.
 
         Where the runs are no grid, it has the one dimension ``run``, and the keys are coordinates. ``trajectories``:
         with those that were kept, over ``time`` (shorter ones, of runs that diverged, end with NaN); the column
@@ -156,7 +156,7 @@ class Table(Mapping[str, list[Any]]):
         return xarray.Dataset(variables, coords=coordinates)
 
     def _trajectories(self) -> tuple[Any, dict[str, Any]]:
-        """The longest time, and the series of all runs (run, time, …)."""
+        """Return the longest time, and the series of all runs (run, time, …)."""
         import numpy as np
 
         have = [i for i, outcome in enumerate(self["outcome"]) if outcome in ("ok", "diverged")]
@@ -177,7 +177,7 @@ class Table(Mapping[str, list[Any]]):
         return time, series
 
     def _uniform(self) -> dict[str, list[Any]]:
-        """Columns whose cells have one type each: vectors become text."""
+        """Return columns whose cells have one type each: vectors become text."""
         found = {}
         for name, cells in self._columns.items():
             kinds = {type(cell) for cell in cells if cell is not None}
@@ -201,7 +201,7 @@ def _array(cells: list[Any]) -> Any:
 
 
 def _place(cell: Any) -> tuple[int, Any]:
-    """Sorts cells: numbers, then words, then the rest, then none."""
+    """Return the sort key of a cell: numbers, then words, then the rest, then none."""
     if isinstance(cell, (bool, int, float)):
         return 0, cell
     if isinstance(cell, str):
@@ -210,7 +210,7 @@ def _place(cell: Any) -> tuple[int, Any]:
 
 
 def collect(folder: Path) -> Table:
-    """The table of all runs in a folder of ``aspic.sweep()`` or ``aspic sweep --runs``, those of several sweeps too.
+    """Return the table of all runs in a folder of ``aspic.sweep()`` or ``aspic sweep --runs``, also of several sweeps.
 
     Rows are sorted by the values of the keys that were varied. Files that are damaged are left out. Raises FileError
     where it is no such folder.

@@ -23,7 +23,7 @@ def _toml_key(key: str) -> str:
 
 
 def toml_of(value: Any) -> str:
-    """A value as TOML. Arrays and numbers of numpy are taken for lists and numbers."""
+    """Return a value as TOML. Arrays and numbers of numpy become lists and numbers."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, bool):
@@ -44,7 +44,7 @@ def toml_of(value: Any) -> str:
 
 
 def assignments(values: Mapping[str, Any] | None) -> list[str]:
-    """Keys and values as arguments of --set."""
+    """Return keys and values as arguments of --set."""
     found = []
     for key, value in (values or {}).items():
         if not isinstance(key, str) or "=" in key:

@@ -34,7 +34,7 @@ class Energy(NamedTuple):
 
     @property
     def total(self) -> Any:
-        """Sum of all three."""
+        """Sum of the three energies."""
         return self.kinetic + self.elastic + self.gravitational
 
 
@@ -52,7 +52,7 @@ class Diagnostic(NamedTuple):
 
 
 def json_of(warnings: Sequence[Diagnostic]) -> str:
-    """As exports hold them; empty without any."""
+    """Return warnings as exports hold them; empty without any."""
     return json.dumps([each._asdict() for each in warnings]) if warnings else ""
 
 
@@ -69,7 +69,7 @@ class Series(Mapping[str, Any]):
         raise UsageError(f"{name!r} was not recorded; this trajectory has {', '.join(self._series) or 'nothing'}")
 
     def get(self, name: str, default: Any = None) -> Any:
-        """A series, or ``default`` where it was not recorded."""
+        """Return a series, or ``default`` where it was not recorded."""
         return self._series.get(name, default)
 
     def __contains__(self, name: object) -> bool:
@@ -82,11 +82,11 @@ class Series(Mapping[str, Any]):
         return list(self._series)
 
     def __len__(self) -> int:
-        """How many series there are; ``time.shape`` counts samples."""
+        """Return the number of series; ``time.shape`` counts samples."""
         return len(self._series)
 
     def _flat(self) -> dict[str, Any]:
-        """Arrays alone: an energy becomes three."""
+        """Return arrays alone: an energy becomes three."""
         flat: dict[str, Any] = {}
         for name, value in self._series.items():
             if isinstance(value, Energy):
@@ -120,11 +120,11 @@ class Series(Mapping[str, Any]):
         _exports.write_complete(path, overwrite, write)
 
     def to_xarray(self) -> Any:
-        """An ``xarray.Dataset``."""
+        """Return an ``xarray.Dataset``."""
         raise NotImplementedError
 
     def _dataset(self, sample: Sequence[str], arrays: dict[str, Any], coordinates: dict[str, Any], **more: Any) -> Any:
-        """``sample``: the dimensions that series have before their own."""
+        """Return an ``xarray.Dataset``; ``sample``: the first dimensions of series."""
         try:
             import xarray  # type: ignore[import-not-found, unused-ignore]
         except ModuleNotFoundError:
@@ -142,7 +142,7 @@ class Series(Mapping[str, Any]):
 
 
 def _arrays_of(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Those of a file, by name."""
+    """Return the arrays of a file, by name."""
     import numpy as np
 
     if not os.fspath(path).endswith(".zarr"):
@@ -163,14 +163,14 @@ def _arrays_of(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 
 def _text(array: Any) -> str | None:
-    """That of an array or of an attribute; UTF-8 where it has bytes."""
+    """Return the text of an array or attribute; bytes are UTF-8."""
     if array is None or isinstance(array, str):
         return array
     return array.item().decode() if array.dtype.kind == "S" else str(array)
 
 
 def _load(path: str | os.PathLike[str], *more: str) -> tuple[list[Any], dict[str, Any]]:
-    """The arrays ``more``, and the series."""
+    """Return the arrays ``more``, and the series."""
     arrays = _arrays_of(path)
     others = [arrays.pop(name) for name in more]
     series: dict[str, Any] = {}
@@ -222,17 +222,17 @@ class Trajectory(Series):
         return {name: value for name, value in vars(self).items() if name != "model"}
 
     def _arrays(self) -> dict[str, Any]:
-        """Series, and with those of all particles or springs what does not change."""
+        """Return series, and constant arrays if a series is of all particles or springs."""
         flat = self._flat()
         return {**flat, **self.model} if self.scene is not None and _exports.about_all(flat) else flat
 
     def _texts(self) -> dict[str, str]:
-        """The scene and the warnings, as far as there are any."""
+        """Return the scene and the warnings, if there are any."""
         scene = {} if self.scene is None else {"scene": self.scene.toml}
         return {**scene, "warnings": json_of(self.warnings)} if self.warnings else scene
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes what was recorded, for ``load()``: a compressed .npz of numpy, or a folder .zarr.
+        """Write the record for ``load()``: a compressed .npz of numpy, or a folder .zarr.
 
         Both hold ``steps``, ``time`` and the scene, and with positions, strains or the like also masses, springs and
         surfaces. They appear complete or not at all. .zarr needs the packages xarray and zarr. Raises UsageError where
@@ -241,14 +241,14 @@ class Trajectory(Series):
         self._save(path, overwrite, {"steps": self.steps, "time": self.time, **self._arrays(), **self._texts()})
 
     def _write(self, file: Any) -> None:
-        """Writes it as ``save()`` does into an open file."""
+        """Write the record to an open file, as ``save()``."""
         import numpy as np
 
         np.savez_compressed(file, steps=self.steps, time=self.time, **self._flat())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Trajectory:
-        """Reads what ``save()`` wrote, or ``aspic run --export`` as .npz. Raises what ``numpy.load()`` raises."""
+        """Read what ``save()`` wrote, or ``aspic run --export`` as .npz. Raises what ``numpy.load()`` raises."""
         (steps, time), series = _load(path, "steps", "time")
         scene, warnings = (_text(series.pop(name, None)) for name in ("scene", "warnings"))
         series = {name: array for name, array in series.items() if not name.startswith("model.")}
@@ -256,7 +256,7 @@ class Trajectory(Series):
         return cls(steps, time, series, None if scene is None else Scene(scene), found)
 
     def export(self, path: str | os.PathLike[str], overwrite: bool = False, *, springs: bool = False) -> None:
-        """Writes the motion for other programs, as docs/exports.md says.
+        """Write the motion for other programs (docs/exports.md).
 
         ``path``: .pvd (ParaView), .pc2 (Blender), .npz (numpy) or .zarr, or .usd, .usda, .usdc by the package usd-core;
         ``springs``: in USD also the springs of bodies that have a skin, which makes files large. Needs what
@@ -267,7 +267,7 @@ class Trajectory(Series):
         _exports.export(self, path, overwrite, springs)
 
     def to_xarray(self) -> Any:
-        """An ``xarray.Dataset`` with the coordinate ``time`` and units; needs the package xarray.
+        """Return an ``xarray.Dataset`` with the coordinate ``time`` and units; needs the package xarray.
 
         With what is recorded of all particles or springs it holds masses, springs and surfaces too, ``model.…``.
         """
@@ -302,7 +302,7 @@ class BatchTrajectory(Series):
         )
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes what was recorded, with ``time``, ``diverged`` and ``hash``: a compressed .npz, or a folder .zarr.
+        """Write the record with ``time``, ``diverged`` and ``hash``: a compressed .npz, or a folder .zarr.
 
         It appears complete or not at all. .zarr needs the packages xarray and zarr. Raises UsageError where the name
         has another ending; FileExistsError unless ``overwrite``.
@@ -314,12 +314,12 @@ class BatchTrajectory(Series):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> BatchTrajectory:
-        """Reads what ``save()`` wrote. Raises what ``numpy.load()`` raises."""
+        """Read what ``save()`` wrote. Raises what ``numpy.load()`` raises."""
         (time, diverged, hashes), series = _load(path, "time", "diverged", "hash")
         return cls(time, diverged, hashes.tolist(), series)
 
     def to_xarray(self) -> Any:
-        """An ``xarray.Dataset`` with the dimensions ``instance`` and ``sample``; needs the package xarray.
+        """Return an ``xarray.Dataset`` with the dimensions ``instance`` and ``sample``; needs the package xarray.
 
         ``time`` is that of each instance's samples; ``diverged`` and ``hash`` are of instances.
         """
@@ -364,7 +364,7 @@ class _Sample:
 
     @functools.cached_property
     def quantities(self) -> dict[str, Any]:
-        """In the precision of the run."""
+        """Quantities in the precision of the run."""
         core = self._simulation._core
         float_type = "float64" if core.doubles else "float32"
         found: dict[str, Any] = dict(zip(_QUANTITIES, core.quantities()))
@@ -376,7 +376,7 @@ class _Sample:
 
 
 def _of_motion(simulation: Readable) -> list[str]:
-    """Quantities of exports."""
+    """Return the quantities of exports."""
     core = simulation._core
     left = set() if core.balls() else set(_OF_BALLS)
     if core.add_work(_aspic.ActuatorWork()) is None:
@@ -427,7 +427,8 @@ class Recorder:
             if what == "momentum":
                 return lambda s: weighted(masses, s.velocities[particles])
             return lambda s: weighted(masses, s.positions[particles]) / float(masses.sum())
-        known = ["motion", "energy", *_OF_MOTION, *_ARRAYS, "center-of-mass", "hash", "actuator-work", *_QUANTITIES, *_OF_BALLS]
+        parts = ("center-of-mass", "hash", "actuator-work")
+        known = ["motion", "energy", *_OF_MOTION, *_ARRAYS, *parts, *_QUANTITIES, *_OF_BALLS]
         raise UsageError(
             f"{name!r} cannot be recorded; {', '.join(known)} can, and of a body "
             f"{', '.join(f'{self._example()}.{part}' for part in _ARRAYS + _OF_BODIES)}"
@@ -437,14 +438,14 @@ class Recorder:
         return next(iter(self._simulation.bodies), "cube[0]")
 
     def take(self) -> None:
-        """The state as it is."""
+        """Add the present state."""
         sample = _Sample(self._simulation)
         self._steps.append(self._simulation.steps)
         for name, taker in self._takers.items():
             self._samples[name].append(taker(sample))
 
     def trajectory(self) -> Trajectory:
-        """All samples so far."""
+        """Return all samples so far."""
         import numpy as np
 
         steps = np.array(self._steps, dtype=np.int64)

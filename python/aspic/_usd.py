@@ -27,7 +27,7 @@ OF_SPRINGS = ("strain", "tension")
 
 
 def write(path: str, trajectory: Trajectory, springs: bool) -> None:
-    """Bodies' skins as Mesh, particles as Points, springs as BasisCurves, balls as Sphere.
+    """Write skins of bodies as Mesh, particles as Points, springs as BasisCurves, balls as Sphere.
 
     ``path``: it ends in .usd, .usda or .usdc; ``springs``: also those of bodies that have a skin. Raises UsageError
     where positions were not recorded; ModuleNotFoundError without usd-core.
@@ -60,17 +60,17 @@ def write(path: str, trajectory: Trajectory, springs: bool) -> None:
 
 
 def identifier(name: str) -> str:
-    """``cube[0]`` as USD takes names: ``cube_0``."""
+    """Return a name as USD takes it: ``cube_0`` for ``cube[0]``."""
     return re.sub(r"\W+", "_", name).strip("_")
 
 
 def of_particles(which: Any) -> Follow:
-    """Attributes of points that are particles. Springs have the same."""
+    """Return attributes of points that are particles. Springs have the same."""
     return lambda sample: sample[which]
 
 
 def of_cells(corners: Any, weights: Any) -> Follow:
-    """Attributes of vertices of a mesh: the mean of the corners of their cells; integers from the nearest corner."""
+    """Return attributes of mesh vertices: the mean of their cells' corners; integers from the nearest corner."""
     import numpy as np
 
     nearest = np.take_along_axis(corners, weights.argmax(axis=1)[:, None], axis=1)[:, 0]
@@ -93,7 +93,7 @@ class _Writer:
         self._velocities = trajectory.get("velocities")
 
     def body(self, number: int, name: str, springs: bool) -> None:
-        """A body's skin, particles and springs below one Xform."""
+        """Write a body's skin, particles and springs below one Xform."""
         import numpy as np
         from pxr import UsdGeom
 
@@ -110,7 +110,7 @@ class _Writer:
             self._springs(f"{place}/springs", np.flatnonzero(of_body), guide=skin is not None)
 
     def _skin_of(self, number: int) -> tuple[Any, Follow] | None:
-        """Faces, and what their vertices follow; None: the body has no surface."""
+        """Return faces, and what their vertices follow; None: the body has no surface."""
         import numpy as np
 
         model = self._trajectory.model
@@ -164,7 +164,7 @@ class _Writer:
             self._primvar(curves, name, of_particles(springs), UsdGeom.Tokens.uniform)
 
     def balls(self) -> None:
-        """Spheres that do not turn."""
+        """Write balls as spheres that do not turn."""
         from pxr import Gf, UsdGeom
 
         (positions,) = recorded(self._trajectory, ["ball-positions"])

@@ -24,7 +24,7 @@ __all__ = ["Walk", "WalkEnv", "walker"]
 
 
 def walker(overrides: dict[str, Any] | None = None) -> Scene:
-    """The scene of ``Walk``: the built-in ``walker``, whose actuators take their signals from inputs.
+    """Return the scene of ``Walk``: the built-in ``walker``, whose actuators take their signals from inputs.
 
     ``overrides``: keys and values set afterwards. Raises SceneError.
     """
@@ -59,7 +59,7 @@ class Walk(Locomotion):
         push: float = 0.02,
         **options: Any,
     ) -> None:
-        """Makes the environments.
+        """Create the environments.
 
         ``scenes``: ``walker()``, ``num_envs`` times, or others with as many particles and inputs in each; ``rate``: by
         how much a signal changes [1/s], > 0; ``cycle``: of the clock [s], > 0; ``push``: the largest component of the
@@ -89,19 +89,19 @@ class Walk(Locomotion):
         self._axes = self._axes_of(x)
 
     def begin(self, index: int, instance: Instance, random: np.random.Generator) -> None:
-        """All particles get the same velocity, each component within ±``push``; signals are 0."""
+        """Give all particles the same velocity, each component within ±``push``, and set signals to 0."""
         super().begin(index, instance, random)
         self._signals[index] = 0.0
 
     def act(self, actions: Any) -> None:
-        """Moves the signals towards the actions."""
+        """Move the signals towards the actions."""
         most = self.rate * self.every
         self._signals += np.clip(actions.astype(np.float64) - self._signals, -most, most)
         for instance, row in zip(self.batch, self._signals.tolist()):
             instance.channels = row
 
     def observe(self) -> Floats:
-        """Clock, signals, velocity, height, axes and contact, (n, m + 13)."""
+        """Return clock, signals, velocity, height, axes and contact, (n, m + 13)."""
         x, v = self.batch.positions.astype(np.float64), self.batch.velocities.astype(np.float64)
         length = np.sqrt((self._axes**2).sum(axis=2))[:, :, None]
         axes = (self._axes_of(x) / length).reshape(len(x), 6)
@@ -109,7 +109,7 @@ class Walk(Locomotion):
         return seen(self._clock(), self._signals, self._center(v), self._higher(x), axes, near)
 
     def _axes_of(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """From rear to front and from below to above, by particles at the ends, (n, 2, 3)."""
+        """Return the axes from rear to front and from bottom to top, by particles at the ends, (n, 2, 3)."""
         front, rear, top, low = self._ends
         return np.stack([x[:, front] - x[:, rear], x[:, top] - x[:, low]], axis=1)
 
@@ -119,7 +119,7 @@ def _inputs_of(scene: Scene) -> list[str]:
 
 
 def _ends(x: NDArray[np.float64]) -> tuple[int, int, int, int]:
-    """The particles that are foremost, hindmost, highest and lowest; the first of several."""
+    """Return the foremost, hindmost, highest and lowest particles; the first of several."""
     return int(x[:, 0].argmax()), int(x[:, 0].argmin()), int(x[:, 1].argmax()), int(x[:, 1].argmin())
 
 
@@ -127,5 +127,5 @@ class WalkEnv(SingleEnv):
     """A single environment of ``Walk``: ``gymnasium.make("aspic/Walk-v0")``."""
 
     def __init__(self, **options: Any):
-        """``options``: those of ``Walk()`` but for ``num_envs`` and ``autoreset_mode``."""
+        """Create the environment. ``options``: those of ``Walk()`` except ``num_envs`` and ``autoreset_mode``."""
         super().__init__(Walk(1, autoreset_mode=AutoresetMode.DISABLED, **options))

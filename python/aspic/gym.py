@@ -8,7 +8,8 @@
 
 Derive your environments from ``BatchEnv``. ``Walk``, a robot of voxels with muscles, and ``Crawl``, a cube with
 tendons, are such classes; ``WalkEnv`` is a single environment, ``gymnasium.make("aspic/Walk-v0")``. The same seed and
-the same actions give the same bits on every machine, whatever the number of environments and of threads. Needs the package gymnasium: ``pip install gymnasium``.
+the same actions give the same bits on every machine, whatever the number of environments and of threads.
+Needs the package gymnasium: ``pip install gymnasium``.
 """
 
 try:
