@@ -76,9 +76,7 @@ void input_now(Gui& gui, PlaybackSession& simulation, const std::string& name, s
   double w = channel < inputs.channels.size() ? inputs.channels[channel] : 0.0;
   const double before = w;
   slider(gui, "Input now", fmt::format("actuator/{}/input", i), w, -1.0, 1.0, "%.2f",
-         "Sets the signal w of this actuator from the next step on. Reset sets it to 0, or to the replayed "
-         "inputs.",
-         false);
+         "Sets the signal w of this actuator from the next step on. Reset restores it.", false);
   if (w != before) simulation.stepper().acts().channels[name] = w;
 }
 

@@ -108,8 +108,7 @@ void add_buttons(Gui& gui, SceneControl& scene, CellEditor& cells) {
   }
   if (column % columns != 0) ImGui::SameLine();
   command_button(gui, "mesh/add", "Mesh…",
-                 "Fills a mesh (.obj, .stl, .ply) with cells, in free space. Dropping the file on the window "
-                 "does the same.\n\nScene key: [[voxels]]",
+                 "Fills a mesh (.obj, .stl, .ply) with cells, in free space.\n\nScene key: [[voxels]]",
                  "add a mesh", true, width);
 }
 
@@ -144,7 +143,7 @@ void shown_springs(Gui& gui, SceneControl& scene) {
   const Parameter& p = *find_parameter("view.draw");
   auto words = std::get<std::vector<std::string>>(*p.get(scene.scene(), 0));
   group_heading("Shown");
-  tooltip("Selects the types of springs to show. View sets their colors.\n\nScene key: view.draw");
+  tooltip("Selects the types of springs to show.\n\nScene key: view.draw");
   float end = ImGui::GetWindowContentRegionMax().x;
   for (const std::string_view type : spring_types) {
     const float width = ImGui::CalcTextSize(type.data()).x + ImGui::GetFrameHeight() +
@@ -166,8 +165,8 @@ void kind_of_springs(Gui& gui, SceneControl& scene, std::size_t cube) {
   std::size_t kind = settings.material ? 1 : 0;
   label_column("Given by");
   if (!choice(gui, fmt::format("springs/{}/kind", cube), kinds, kinds, kind,
-              "Selects stiffness, damping and mass by value, or a material that is the same at every "
-              "resolution.\n\nScene key: cube[].material"))
+              "Selects stiffness, damping and mass, or a material for every resolution.\n\nScene key: "
+              "cube[].material"))
     return;
   scene.change("material", [&](Scene& s) {
     auto& material = s.model.cubes[cube].material;
@@ -199,9 +198,9 @@ void same_for_all(Gui& gui, SceneControl& scene, std::size_t cube, std::string_v
   const Parameter& first = *find_parameter(fmt::format("cube[].structural.{}", what));
   const std::string label = fmt::format("{} (all)", capitalized(std::string(what))),
                     help = fmt::format(
-                        "Sets one {0} for all springs. Shows that of structural springs if they "
-                        "differ.\n\nScene keys: cube[{1}].structural.{0}, cube[{1}].shear.{0}, "
-                        "cube[{1}].bending.{0}\nDrag to change, Ctrl+click to type.",
+                        "Sets one {0} for all springs. Shows that of structural springs.\n\nScene keys: "
+                        "cube[{1}].structural.{0}, cube[{1}].shear.{0}, cube[{1}].bending.{0}\nDrag to "
+                        "change, Ctrl+click to type.",
                         what, cube);
   // Not the row of the structural springs, which has the same key.
   ImGui::PushID("all");
@@ -311,8 +310,7 @@ void contact_section(Gui& gui, SceneControl& scene) {
     if (p.path.starts_with("contact.")) edit(gui, scene, p.path);
   }
   for (std::size_t i = 0; i < scene.scene().model.terrain.size(); ++i) terrain(gui, scene, i);
-  if (add_button(gui, "terrain",
-                 "Adds a plane at its default place. Terrains act in file order. The motion continues."))
+  if (add_button(gui, "terrain", "Adds a plane at its default place. The motion continues."))
     scene.change("add terrain", [](Scene& s) { s.model.terrain.emplace_back(); });
 }
 

@@ -116,9 +116,8 @@ void say_cell(const CellEditor& cells, const VoxelsSettings& voxels, const std::
 }
 
 constexpr std::string_view grid_help =
-    "Shows the cells of the layer from above. Left drag paints the chosen material, right drag erases, "
-    "middle click picks a material. Small squares are cells of the layer below.\n\nScene key: "
-    "voxels[].layers\nA change restarts the simulation.";
+    "Edits the layer, seen from above. Left drag: paint, right drag: erase, middle click: pick.\n\nScene "
+    "key: voxels[].layers\nA change restarts the simulation.";
 
 /// The layer as a grid, seen from above: back at the top, left at the left. Wide ones are scrolled.
 void grid(Gui& gui, const SceneControl& scene, CellEditor& cells) {
@@ -335,9 +334,7 @@ void size_row(Gui& gui, CellEditor& cells, const char* label, int count, CellSid
   const auto pressed = [&](const char* sign, CellSide where, const char* end) {
     const bool more = *sign == '+';
     const std::string name = fmt::format("cells/{}/{}", more ? "grow" : "shrink", end),
-                      help = more ? fmt::format(
-                                        "Adds one {} of empty cells at the {}; the others keep their places.",
-                                        one, end)
+                      help = more ? fmt::format("Adds one {} of empty cells at the {}.", one, end)
                                   : fmt::format("Removes one {} at the {}, with its cells.", one, end);
     if (!button(gui, name.c_str(), sign, help, more || count > 1, side)) return;
     const int layer = cells.layer();
@@ -386,10 +383,8 @@ bool has_skin(Gui& gui, SceneControl& scene, std::size_t body) {
       "These cells come from a mesh, which is their skin. To paint them, remove the skin: the window then "
       "shows the cells.",
       ImGui::GetContentRegionAvail().x);
-  if (button(
-          gui, "cells/without-skin", "Edit as layers",
-          "Removes the skin; layers and motion are unchanged. Undo restores it.\n\nScene key: voxels[].skin",
-          true, -1.0f))
+  if (button(gui, "cells/without-skin", "Edit as layers",
+             "Removes the skin. Undo restores it.\n\nScene key: voxels[].skin", true, -1.0f))
     scene.change("remove the skin", [&](Scene& s) { s.model.voxels[body].skin.clear(); });
   return true;
 }
@@ -439,7 +434,7 @@ void cells_section(Gui& gui, SceneControl& scene, CellEditor& cells) {
   size_row(gui, cells, "Rows", rows, CellSide::back, CellSide::front, "row", "back", "front");
   size_row(gui, cells, "Layers", high, CellSide::bottom, CellSide::top, "layer", "bottom", "top");
   if (!scene.scene().model.voxels[cells.body()].pinned.indices.empty())
-    wrapped_text("Pins name particles by index, and indices change when you add or remove cells.",
+    wrapped_text("Adding or removing cells changes the indices that pins use.",
                  ImGui::GetContentRegionAvail().x);
 }
 

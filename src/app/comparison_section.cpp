@@ -91,7 +91,7 @@ void difference_widget(Gui& gui, ComparisonView& comparison_view, const Scene& s
   }
   std::string text = own.value;
   const bool entered = ImGui::InputText("##value", &text, ImGuiInputTextFlags_EnterReturnsTrue);
-  named(gui, name, "Sets the value of this run, as --set does. Enter restarts all runs.");
+  named(gui, name, "Sets the value of this run. Enter restarts all runs.");
   if (entered) comparison_view.set(i, {own.key, text});
 }
 
@@ -120,9 +120,8 @@ void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& compariso
   }
   const float half = share_of_line(2);
   command_button(gui, "comparison/add", differences.empty() ? "Compare side by side" : "Add a run",
-                 "Adds a run with one different value, up to four runs. Restarts all runs.",
-                 "add a run side by side", differences.size() + 1 < most_compared,
-                 differences.empty() ? 0.0f : half);
+                 "Adds a run with one different value. Limit: four runs.", "add a run side by side",
+                 differences.size() + 1 < most_compared, differences.empty() ? 0.0f : half);
   if (!differences.empty()) {
     ImGui::SameLine();
     command_button(gui, "comparison/leave", "Leave", "Closes the comparison and keeps the scene's own run.",
@@ -131,9 +130,7 @@ void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& compariso
   if (comparison.clock().others_go_on())
     ImGui::TextWrapped("The scene's own run diverged; the others continue. Space pauses them.");
   command_button(gui, "comparison/ghost", "Keep as ghost",
-                 "Shows the run so far as a pale overlay. Change a value, press Reset, and compare. Keeps at "
-                 "most 128 MiB and simulates the rest again.",
-                 "keep this run as ghost", true, half);
+                 "Shows the run so far as a pale overlay after Reset.", "keep this run as ghost", true, half);
   ImGui::SameLine();
   command_button(gui, "comparison/no-ghost", "Removes the ghost.", "Shows the run without its ghost.",
                  "remove the ghost", comparison.ghost() != nullptr, half);

@@ -131,9 +131,8 @@ void FileDialog::draw(Gui& gui, double width, double height) {
   }
   const bool ready = question_.writes ? !name_.empty() : exists;
   const std::string label = replaces ? "Replace" : question_.title;
-  const bool pressed =
-      button(gui, "files/accept", label.c_str(),
-             "Opens or saves the file, as Enter does. Replacing needs a second press.", ready);
+  const bool pressed = button(gui, "files/accept", label.c_str(),
+                              "Opens or saves the file. Replacing needs a second press.", ready);
   if (entered && ((replaces && std::exchange(warned_of_, path()) != path()) || !ready))
     just_opened_ = true;  // the field gets the keyboard again
   else if (ready && (pressed || entered))

@@ -231,8 +231,7 @@ double height_of(const DifferenceSample& sample) {
 void plot_differences(Gui& gui, const std::deque<DifferenceSample>& samples) {
   const Plot plot(
       gui, "shadow/plot", 70.0, samples,
-      "Shows the largest difference of the states, in units in the last place. The axis is logarithmic, from "
-      "0 to 10¹⁰: each tenth of the height is a factor of ten. Green: identical bits.");
+      "Plots the largest difference of the states [ulp], logarithmic, 0 to 10¹⁰. Green: identical bits.");
   for (std::size_t i = 1; i < samples.size() && plot.span > 0.0; ++i) {
     const auto place = [&](const DifferenceSample& s) { return plot.place(s.time, height_of(s)); };
     plot.draw.AddLine(place(samples[i - 1]), place(samples[i]), samples[i].identical ? same : other,
@@ -329,20 +328,17 @@ void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, 
     }
   };
   show("energy/plot", energy_curves(s.model()), comparison_view.compared[0], "J",
-       "Plots the energies of the run [J]; a click goes to that moment. Gravitational energy is zero at the "
-       "origin, contact energy is part of the elastic one, and actuator work adds up from the plot's first "
-       "point. With explicit Euler a little kinetic energy remains at rest.");
+       "Plots the energies of the run [J]. Click: go to that time.");
   if (!folded(gui, layout, "Energy", "momentum", "Momentum over time.")) return;
   show("energy/momentum", momentum_curves, comparison_view.compared[1], "N·s",
-       "Plots the total momentum Σ m·v by axis and in magnitude [N·s]; a click goes to that moment.");
+       "Plots the total momentum by axis and in magnitude [N·s]. Click: go to that time.");
 }
 
 void shadow_section(Gui& gui, const PlaybackSession& s, RunControl& run) {
   const std::vector<const BackendRow*> others = others_than(s.present().backend());
   bool on = s.present().engines().shadowed();
   if (check_box(gui, "compare", "shadow/on", on,
-                "Runs the same steps on a second backend and compares the states. The image shows the "
-                "leading backend; the slower one limits the speed."))
+                "Runs the same steps on a second backend and compares the states."))
     run.set_shadow(on ? others.front() : nullptr);
   if (!s.present().engines().shadowed()) return;
   // A machine with two backends has no choice to offer.

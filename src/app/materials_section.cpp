@@ -75,8 +75,8 @@ bool material_rows(Gui& gui, SceneControl& scene, Messages& messages, std::size_
              std::max(ImGui::GetContentRegionAvail().x - width - ImGui::GetStyle().ItemSpacing.x, 1.0f));
   ImGui::SameLine();
   if (button(gui, fmt::format("material/{}/remove", i).c_str(), label,
-             "Removes this material. Its bodies keep the values. A material in a palette cannot be "
-             "removed.\n\nScene key: [[material]]"))
+             "Removes this material. Its bodies keep the values. Limit: none of palettes.\n\nScene key: "
+             "[[material]]"))
     remove(scene, messages, i);
   if (scene.scene().model.materials.size() != count) return true;
   edit(gui, scene, "material[].density", i);
@@ -162,7 +162,7 @@ void made_of_row(Gui& gui, SceneControl& scene, std::string_view section, std::s
   const std::string help = fmt::format(
       "{} A new material starts with the body's values, under Materials.\n\nScene keys: {}[].material{}",
       cells ? "Selects one material for all cells, or one for each palette character."
-            : "Selects stiffness and damping by type, own material values, or a named material.",
+            : "Selects spring values by type, own material values, or a named material.",
       key, cells ? ", voxels[].palette" : "");
   if (!choice(gui, fmt::format("{}/{}/made-of", key, i), views, views, index, help)) return;
   scene.change("material", [&](Scene& s) { make_of(s.model, section, i, list[index]); });

@@ -18,8 +18,7 @@ namespace {
 void divergence_buttons(Gui& gui, const PlaybackSession& simulation, RunControl& run, Messages& messages) {
   if (const auto step = run.offered_step()) {
     if (button(gui, "diverged/stable", fmt::format("Use h = {:.4g} s", *step).c_str(),
-               "Continues from shortly before the divergence with this time step and all present values. It "
-               "is 0.95 of the estimated limit, or half the present step if smaller."))
+               "Continues from shortly before the divergence with this time step."))
       run.take_offered_step();
     ImGui::SameLine();
   }

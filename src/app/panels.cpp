@@ -170,9 +170,8 @@ void timeline(Gui& gui, const PlaybackSession& s, ComparisonView& comparison_vie
                                          ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
   gui.mark("timeline");
   const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
-  tooltip(fmt::format("Shows the run so far, {} of at most 512 MiB. Drag to go to any step; this pauses the "
-                      "run. Aspic simulates the steps between the {} stored states again, with the same "
-                      "bits. Marks show scene changes. Continuing from the past discards the later steps.",
+  tooltip(fmt::format("Shows the run so far, {} of at most 512 MiB in {} states. Drag to go to any step. "
+                      "Continuing there discards later steps.",
                       human_bytes(history.bytes()), history.keyframe_count()),
           "step back");
   if (last > first) {
@@ -219,14 +218,11 @@ Box action_bar(Parts p, const Box& view) {
     ImGui::SameLine();
     large("actions/reset", "Reset", "Returns to the scene's start.", "reset to the start", true);
     ImGui::SameLine();
-    large("actions/compare", "Compare",
-          "Adds a run with another integrator, then half the time step, then four times the stiffness. "
-          "Change the difference under Side by side.",
+    large("actions/compare", "Compare", "Adds a run with one difference. Change it under Side by side.",
           "add a run side by side", comparison.count() < most_compared);
     ImGui::SameLine();
-    large("actions/video", videos ? "End video" : "Video",
-          "Starts or ends a video of all runs. Recording sets format and name.", "start or end a video",
-          true);
+    large("actions/video", videos ? "End video" : "Video", "Starts or ends a video of all runs.",
+          "start or end a video", true);
   }
   ImGui::PopStyleVar(2);
   Box above = view;

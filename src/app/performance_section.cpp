@@ -26,9 +26,7 @@ void pass_times(Gui& gui, GpuSolver& solver) {
   // Measured only while it is shown: a measured step takes a little longer.
   solver.set_profiling(true);
   group_heading("Passes of a step");
-  named(gui, "performance/passes",
-        "Shows the device time [ms] and dispatches of each kind of pass in a step; means over the last "
-        "measured steps.");
+  named(gui, "performance/passes", "Shows mean device time [ms] and dispatches of each pass.");
   const std::vector<gl::PassTime> passes = solver.pass_times();
   if (passes.empty()) {
     ImGui::TextDisabled("   not measured yet");

@@ -31,7 +31,7 @@ void format_widget(Gui& gui, VideoSettings& video) {
   }
   auto index = static_cast<std::size_t>(video.format - video_formats().data());
   if (!choice(gui, "record/format", names, labels, index,
-              "Selects a file (mp4, webm and GIF need ffmpeg) or a directory of numbered frames."))
+              "Selects a file or a directory of frames. mp4, webm and GIF need ffmpeg."))
     return;
   video.format = &video_formats()[index];
   video.fps = std::min(video.fps, video.format->most_fps);
@@ -42,10 +42,10 @@ void rate_widget(Gui& gui, VideoSettings& video) {
   const double least = 1.0, most = video.format->most_fps;
   number_drag("##fps", video.fps, 0.2f, least, most, "%.4g a second", ImGuiSliderFlags_AlwaysClamp,
               between(least, most));
-  named(gui, "record/fps",
-        fmt::format("Sets the frames per second, 1 … {:g} in this format. Frames are speed/rate seconds of "
-                    "simulated time apart.\nDrag to change, Ctrl+click to type.",
-                    most));
+  named(
+      gui, "record/fps",
+      fmt::format("Sets the frames per second, 1 … {:g} in this format.\nDrag to change, Ctrl+click to type.",
+                  most));
 }
 
 void name_widget(Gui& gui, const std::string& source, VideoSettings& video) {
@@ -57,8 +57,7 @@ void name_widget(Gui& gui, const std::string& source, VideoSettings& video) {
   if (ImGui::InputTextWithHint("##video", elided_path(hint, room).c_str(), text.data(), text.size()))
     video.path = text.data();
   named(gui, "record/path",
-        fmt::format("Names the video; if empty, {}. The format sets the extension. Existing files stay.",
-                    hint));
+        fmt::format("Names the video; if empty, {}. The format sets the extension.", hint));
 }
 
 /// Whether the video's states are written too, and in which format.
@@ -183,9 +182,8 @@ void recording_section(Gui& gui, const std::string& source, Video& video) {
     return;
   }
   command_button(gui, "record/start", "Start a video",
-                 "Records the scene, or all runs side by side, in simulated time and at the view's present "
-                 "size. A pause of the motion pauses the video.",
-                 start_or_end, true, -1.0f);
+                 "Records all runs in simulated time, at the view's present size.", start_or_end, true,
+                 -1.0f);
   format_widget(gui, video.settings);
   rate_widget(gui, video.settings);
   name_widget(gui, source, video.settings);
@@ -194,11 +192,10 @@ void recording_section(Gui& gui, const std::string& source, Video& video) {
             "Shows terrain, integrator, time step, springs, time and the color legend.");
   label_column("Page");
   check_box(gui, "for browsers", "record/page", video.settings.page,
-            "Writes one HTML file to turn and play in browsers. It ends when the model changes or the run is "
-            "rewound.");
+            "Writes one HTML file for browsers. Changes of the model and rewinding end it.");
   label_column("Live page");
   check_box(gui, "simulates", "record/live", video.settings.live,
-            "Writes a page that simulates in the browser and compares bits. It also ends at a mouse pull.");
+            "Writes a page that simulates in the browser and compares bits. Pulls end it.");
   states_widget(gui, video.settings);
   if (video.completing() > 0) ImGui::TextDisabled("Completing the last video …");
 }
@@ -234,9 +231,7 @@ void state_files(Gui& gui, const std::string& source, PlaybackSession& simulatio
     files.ask({"Save", {format.ending}, true, write}, free_state_name(source, format.ending, comparison));
   }
   if (!button(gui, "save/inputs.toml", "Save inputs… (.toml)",
-              "Writes pulls and pins since the start, by step. Opened here, or with aspic run --replay, they "
-              "repeat the run with identical bits on any backend.",
-              true, -1.0f))
+              "Writes pulls and pins by step. Open or aspic run --replay repeats them.", true, -1.0f))
     return;
   const auto write = [&simulation, &messages](const std::string& path, Overwrite overwrite) {
     save_inputs(path, overwrite, simulation, messages);

@@ -18,8 +18,7 @@ namespace {
 /// A terrain of another shape with the same surface.
 void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, float width) {
   const std::string name = fmt::format("terrain/{}", row.name), label(row.title);
-  const std::string help =
-      fmt::format("Turns the first terrain into a {} at its default place. Restarts the simulation.", label);
+  const std::string help = fmt::format("Turns the first terrain into a {}. Restarts the simulation.", label);
   if (!button(gui, name.c_str(), label.c_str(), help, true, width)) return;
   scenes.change("terrain shape", [&](Scene& scene) {
     if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
@@ -80,9 +79,7 @@ void scene_section(Gui& gui, SceneControl& scene) {
   const bool entered = ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf,
                                                 sizeof filter.InputBuf, ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemActive() || entered) filter.Build();
-  named(gui, "scene/search",
-        "Filters scenes by name or description. Enter opens the only match. Drop a scene file on the window "
-        "to open it.");
+  named(gui, "scene/search", "Filters scenes by name or description. Enter opens the only match.");
   if (filter.IsActive()) {
     ImGui::SameLine();
     if (button(gui, "scene/search/clear", "×", "Shows all scenes.", true, ImGui::GetFrameHeight()))
@@ -146,8 +143,7 @@ void simulation_section(Gui& gui, PlaybackSession& s, SceneControl& scene, const
   command_button(gui, "simulation/backend", other.c_str(),
                  "Switches to the other solver; the state keeps every bit.", "other backend", true, half);
   ImGui::SameLine();
-  command_button(gui, "simulation/back", "Step back",
-                 "Goes back one time step. Drag the bar below to go to any step.", "step back",
+  command_button(gui, "simulation/back", "Step back", "Goes back one time step.", "step back",
                  s.playback().can_step_back(), half);
   edit(gui, scene, "simulation.integrator");
   edit(gui, scene, "simulation.timestep", 0, {"Time step"});
@@ -155,9 +151,7 @@ void simulation_section(Gui& gui, PlaybackSession& s, SceneControl& scene, const
   static constexpr std::string_view paces[] = {"steps per frame", "real time"};
   Pacer& pacer = s.pacer();
   auto pace = static_cast<std::size_t>(pacer.pace());
-  if (choice(gui, "simulation/pace", paces, paces, pace,
-             "Sets the pace: steps per frame, or real time. The status line shows the factor of a solver "
-             "that is slower."))
+  if (choice(gui, "simulation/pace", paces, paces, pace, "Sets the pace: steps per frame, or real time."))
     pacer.set_pace(static_cast<Pace>(pace));
   if (pacer.pace() == Pace::steps_per_frame) edit(gui, scene, "simulation.steps-per-frame");
   double speed = pacer.speed();
@@ -177,8 +171,8 @@ void simulation_section(Gui& gui, PlaybackSession& s, SceneControl& scene, const
 void balls_section(Gui& gui, const PlaybackSession& simulation, Hands& hands) {
   const float third = share_of_line(3);
   command_button(gui, "balls/throw", "Throw",
-                 "Throws a ball into the middle of the image; the key throws it at the mouse.",
-                 "throw a ball", true, third);
+                 "Throws a ball into the middle of the image. Key: at the mouse.", "throw a ball", true,
+                 third);
   ImGui::SameLine();
   if (button(gui, "balls/many", "Throw many", "Throws a dozen balls.", true, third)) hands.throw_many();
   ImGui::SameLine();
@@ -195,8 +189,7 @@ void balls_section(Gui& gui, const PlaybackSession& simulation, Hands& hands) {
   slider(gui, "Speed", "balls/speed", hands.speed, 0.5, 200.0, "%.3g m/s",
          "Sets the speed of the next thrown ball [m/s], 0.5 to 200.");
   slider(gui, "Pull", "balls/strength", hands.strength, 0.01, 100.0, "×%.3g",
-         "Sets the strength of Ctrl+drag, 0.01 to 100: a factor on twice the largest spring stiffness for "
-         "particles, on 200 N/m per kilogram for balls; the time step limits it.");
+         "Sets the strength of Ctrl+drag, 0.01 to 100. The time step limits it.");
   ImGui::TextDisabled("%zu of the scene, %zu thrown",
                       static_cast<std::size_t>(simulation.model().ball_count()) - thrown, thrown);
 }

@@ -108,8 +108,7 @@ void take_cell(SceneControl& scenes, const StabilityCells& map, std::size_t cell
 
 std::string help_of(const StabilityCells& map, std::optional<std::size_t> cell) {
   std::string text =
-      "Shows a run of the bodies in space for each time step (across) and stiffness (up). Blue is stable, "
-      "hatched brown unstable. The line is the largest stable step in theory, the dot the scene.";
+      "Maps stability by time step (across) and stiffness (up). Blue: stable. Line: theory. Dot: the scene.";
   if (!cell) return text;
   const double step = map.steps[*cell % map.steps.size()],
                stiffness = map.stiffness[*cell / map.steps.size()];

@@ -31,11 +31,8 @@ struct Preset {
   const char* help;
 };
 const Preset presets[] = {
-    {"camera/front",
-     "Front",
-     {0, 0, 1},
-     "Looks along −z, at the target from the front, at the same distance."},
-    {"camera/side", "Side", {1, 0, 0}, "Looks along −x, at the target from the right, at the same distance."},
+    {"camera/front", "Front", {0, 0, 1}, "Looks at the target from the front, along −z."},
+    {"camera/side", "Side", {1, 0, 0}, "Looks at the target from the right, along −x."},
     {"camera/top", "Top", {0, 1, 0}, "Looks down on the target, at the same distance."},
     {"camera/isometric",
      "Isometric",
@@ -96,9 +93,7 @@ void text_size(Gui& gui, Layout& layout) {
   static bool held = false;
   if (!held) dragged = layout.text_size;
   if (slider(gui, "Text size", "layout/text-size", dragged, Layout::smallest_text, Layout::largest_text,
-             "×%.2f",
-             "Sets the size of text and panels, from 0.75 to 2.5. Kept for the next session.\nDrag to "
-             "change, Ctrl+click to type.",
+             "×%.2f", "Sets the size of text and panels, 0.75 to 2.5.\nDrag to change, Ctrl+click to type.",
              false))
     layout.text_size = dragged;
   held = ImGui::IsItemActive();
@@ -120,8 +115,8 @@ void layout_widgets(Gui& gui, Layouts& layout) {
   text_size(gui, layout);
   check_box(gui, "large clock", "layout/clock", layout.clock,
             "Shows a large clock in a corner, except in videos and comparisons.");
-  if (button(gui, "layout/reset", "Reset layout",
-             "Resets the panels, their widths and the text size. Scene and camera stay.", true, -1.0f))
+  if (button(gui, "layout/reset", "Reset layout", "Resets the panels, their widths and the text size.", true,
+             -1.0f))
     layout.reset();
 }
 
