@@ -123,7 +123,7 @@ class Page {
     });
     $("copy").addEventListener("click", async () => {
       await copyText(this.recording.facts.command);
-      $("said").textContent = "Copied the command.";
+      $("said").textContent = "Command copied.";
       setTimeout(() => { $("said").textContent = ""; }, 2000);
     });
     const seek = (event) => {
