@@ -168,7 +168,8 @@ void Stage::click(const std::string& widget) {
   app_->mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
   frames(1);
   app_->mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
-  frames(2);
+  // The panel scrolls by as much as the rows of an added body take.
+  frames(widget.ends_with("/add") ? 3 : 2);
 }
 
 void Stage::resize(int wide, int high) {
