@@ -31,7 +31,7 @@ TEST_F(StabilityWindow, AnotherWindowMeasuresAMapOfItsOwn) {
 TEST_F(StabilityWindow, AClickSetsTimeStepAndStiffness) {
   open("cube-plane", {"cube[0].particles-per-edge=3"}, "reference", only_the_map());
   frames_until([&] { return has("stability/map") && !has("stability/measuring"); });
-  EXPECT_THAT(explanations().at("stability/map"), testing::HasSubstr("the dot the scene"));
+  EXPECT_THAT(explanations().at("stability/map"), testing::HasSubstr("Dot: the scene"));
   const auto box = widgets().at("stability/map");
   const auto click_at = [&](double x, double y) {
     drag(GLFW_MOUSE_BUTTON_LEFT, box.left + x * (box.right - box.left),
