@@ -1,5 +1,5 @@
-// What the window manages on this machine: real-time factor, images a second, longest gap between handled
-// events; and the largest cube that keeps up with time. To be run on a display, or by
+// Measures the window on this machine: real-time factor, images a second, longest gap between handled events,
+// and the largest cube that keeps up with time. Needs a display, such as that of
 // tests/support/on_display.sh.
 #include <fmt/format.h>
 #include <unistd.h>

@@ -45,7 +45,7 @@ struct DrawSettings {
   friend bool operator==(const DrawSettings&, const DrawSettings&) = default;
 };
 
-/// What the colors of bodies mean.
+/// Quantities that the colors of bodies show.
 enum class ViewColor { material, type, strain, force, speed, signed_strain, energy, actuation };
 
 /// Every one, in the order in which they are listed for users.

@@ -16,7 +16,7 @@ __all__ = ["page_command"]
 
 
 def differences(scene: Scene) -> list[str] | None:
-    """Return arguments of --set that turn the built-in scene of that name into this one; None if there are none."""
+    """Return arguments of --set that turn the built-in scene of this name into this one, or None."""
     if scene.name not in (builtin.name for builtin in scenes()):
         return None
     builtin = load(scene.name)

@@ -74,7 +74,7 @@
 #define PICK_TERRAIN 3u
 #define PICK_KIND_SHIFT 30
 
-// What colors mean, in the order of ViewColor.
+// Quantities that colors show, in the order of ViewColor.
 #define COLOR_MATERIAL 0u
 #define COLOR_TYPE 1u
 #define COLOR_STRAIN 2u

@@ -9,7 +9,7 @@ vec3 in_light(int light, vec3 world) {
   return vec3(p.xy * light_boxes[light].depth.y, p.z);
 }
 
-// What a map stores of something at a depth from the box's center that reaches so far above and below it [m].
+// The texel of a map for a body at this depth from the box's center that reaches so far above and below it [m].
 vec4 light_texel(int light, float depth, float reach) {
   float half_depth = light_boxes[light].depth.x;
   return vec4(1.0, depth, half_depth + depth + reach, half_depth - depth + reach);

@@ -1,4 +1,4 @@
-// What colors show of each particle: its speed, the mean strain of its springs, the net force they exert on it, or its
+// The quantity of each particle that colors show: its speed, the mean strain of its springs, the net force they exert on it, or its
 // half of their energy; and the extremes of it over bodies and balls, and over springs.
 #define ASPIC_LATTICES  // a model without any has none in the table
 #define ASPIC_LISTED

@@ -1,4 +1,4 @@
-// What colors show of one spring: e from its end b to a, their relative velocity u, and k, c, r and whether it is a cord.
+// The quantities of one spring that colors show: e from its end b to a, their relative velocity u, and k, c, r and whether it is a cord.
 struct SpringQuantity {
   float strain;    // (L − r)/r
   float strength;  // k(L − r) + damping [N], positive where it pulls its ends together; 0 of a slack cord

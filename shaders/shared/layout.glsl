@@ -1,5 +1,5 @@
-// What compute and drawing share: bindings, bounds of loops, and the structs of the buffers that solvers fill and images
-// show. Read by GLSL and by C++ (src/device/layout.h).
+// Bindings, bounds of loops and structs of buffers that compute and drawing share: solvers fill them, images show
+// them. Read by GLSL and by C++ (src/device/layout.h).
 #ifndef SHARED_LAYOUT
 #define SHARED_LAYOUT
 
@@ -38,7 +38,7 @@
 #define BINDING_CANDIDATE_GROUPS 4  // CandidateGroup[]
 #define BINDING_CONTACT_WORDS 5       // uint[]: lists of triangles and of candidate groups
 #define BINDING_CONTACT_RECORDS 7     // ContactRecord[CONTACT_RECORDS · candidate groups]
-// Of the kernels that prepare an image; springs and balls as above.
+// Bindings of kernels that prepare an image; springs and balls as above.
 #define BINDING_PARTICLES 0   // Particle[]
 #define BINDING_FAN_START 1   // uint[surface vertices + 1]: where each vertex's fan begins
 #define BINDING_FAN 2         // uvec2[]: next and previous neighbor along each quad at the vertex

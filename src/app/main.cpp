@@ -1,4 +1,6 @@
 // aspic-view: the window, started by `aspic view`.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -93,8 +95,10 @@ int show(const ViewOptions& view) {
       print_message(worded(saved.error(), FrontEnd::command_line));
   }
   if (Window::is_lost())
-    error =
-        Error{ErrorCode::no_device, "The display was lost. Unsaved changes of the scene are lost as well."};
+    error = Error{
+        ErrorCode::no_device,
+        fmt::format("The display was lost{}. Start aspic view on another display.",
+                    (*app)->scene.editor().changed() ? ", and with it unsaved changes of the scene" : "")};
   if (error) return fail(*error);
   return interrupted ? static_cast<int>(ErrorCode::interrupted) : 0;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the window says to the user.
+// Messages of the window.
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace aspic::app {
 
-/// What ends a message by itself.
+/// Event that ends a message.
 enum class Until { dismissed, time, divergence_is_over };
 
 /// A message on top of the image.
@@ -26,12 +26,13 @@ struct Notice {
   double age = 0.0;       ///< [s]
 };
 
-/// The messages that are shown, the newest last. News takes the place of older news, never of an error. An
-/// error that leaves nothing to decide disappears as news does.
+/// The messages that are shown, the newest last. Information replaces older information, never an error. An
+/// error that leaves nothing to decide disappears with time, as information does.
 class Messages {
  public:
-  static constexpr std::size_t most = 3;  ///< at once; the oldest news makes room, then the oldest error
-  static constexpr double fresh_seconds = 1.0;  ///< for which news stays beside newer news
+  static constexpr std::size_t most =
+      3;  ///< at once; the oldest information makes room, then the oldest error
+  static constexpr double fresh_seconds = 1.0;  ///< for which information stays beside newer information
 
   void info(const std::string& text, double seconds = 5.0) {
     add({printable(text), false, Until::time, seconds});
@@ -43,7 +44,7 @@ class Messages {
   void greeting_is_over() { std::erase_if(notices_, &is_greeting); }
   void error(const std::string& text, Until until = Until::dismissed) { add({printable(text), true, until}); }
   void error(const Error& why) { error(worded(why, FrontEnd::window)); }
-  /// What was asked for cannot be done, and nothing has changed.
+  /// Says that a request cannot be met; nothing has changed.
   void refuse(const Error& why) { refuse(worded(why, FrontEnd::window)); }
   void refuse(const std::string& text) { add({printable(text), true, Until::time, 8.0}); }
   /// Shows the error of a status or result, if it has one; true without.
@@ -57,7 +58,7 @@ class Messages {
     std::erase_if(notices_, [&](const Notice& n) { return n.text == text; });
   }
   void dismiss_error() { std::erase_if(notices_, &is_error); }
-  /// What was refused may be possible now.
+  /// Ends refusals: the request may be possible now.
   void dismiss_refusal() {
     std::erase_if(notices_, [](const Notice& n) { return n.is_error && n.until == Until::time; });
   }
@@ -93,8 +94,8 @@ class Messages {
       return n.text == notice.text || (!n.is_error && (n.greeting || n.age > fresh_seconds));
     });
     if (notices_.size() == most) {
-      const auto news = std::ranges::find(notices_, false, &Notice::is_error);
-      notices_.erase(news == notices_.end() ? notices_.begin() : news);
+      const auto information = std::ranges::find(notices_, false, &Notice::is_error);
+      notices_.erase(information == notices_.end() ? notices_.begin() : information);
     }
     notices_.push_back(std::move(notice));
   }

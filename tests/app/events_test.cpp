@@ -29,17 +29,6 @@ constexpr const char* window_title = "cube-plane";
 /// Of the window: panels stand on both sides.
 constexpr int width = 1040, height = 640;
 
-std::string output_of(const std::string& command) {
-  std::FILE* const pipe = ::popen(command.c_str(), "r");
-  if (!pipe) return "";
-  std::string text;
-  std::array<char, 4096> part;
-  for (std::size_t got; (got = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
-    text.append(part.data(), got);
-  ::pclose(pipe);
-  return text;
-}
-
 /// Waits until a condition holds; false if it never does.
 template <class Condition>
 bool waited_for(Condition condition) {

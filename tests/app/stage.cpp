@@ -3,7 +3,9 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "app/revival.h"
@@ -20,6 +22,18 @@ void WidgetLog::end_of_image() {
     explanations[name] = found == tooltips_.end() ? std::string() : found->second;
   }
   tooltips_.clear();
+}
+
+std::string output_of(const std::string& command, int* status) {
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  if (!pipe) return "";
+  std::string text;
+  std::array<char, 4096> part;
+  for (std::size_t got; (got = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
+    text.append(part.data(), got);
+  const int ended = ::pclose(pipe);
+  if (status) *status = ended;
+  return text;
 }
 
 void Stage::SetUp() {

@@ -35,6 +35,9 @@ class WidgetLog final : public app::WidgetWatcher {
   std::vector<std::pair<app::Box, std::string>> tooltips_;
 };
 
+/// The standard output of a command, and how it ended (waitpid) in `status`.
+std::string output_of(const std::string& command, int* status = nullptr);
+
 /// A test with the window open. Fails on any GL error that is left at its end.
 class Stage : public ::testing::Test {
  protected:

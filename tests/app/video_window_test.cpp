@@ -23,15 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a command writes to its standard output; a failure if it ends badly.
-std::string output_of(const std::string& command) {
-  std::FILE* const pipe = ::popen(command.c_str(), "r");
-  if (!pipe) return "";
-  std::string text;
-  std::array<char, 4096> part;
-  for (std::size_t got; (got = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
-    text.append(part.data(), got);
-  const int status = ::pclose(pipe);
+/// The standard output of a command; a failure if it ends badly.
+std::string checked_output_of(const std::string& command) {
+  int status = 0;
+  const std::string text = output_of(command, &status);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << command;
   return text;
 }
@@ -212,7 +207,7 @@ TEST_F(Video, TwoSecondsInEveryVideoFormat) {
     ASSERT_FALSE(app().messages.notice()->is_error) << app().messages.notice()->text;
     const std::string name = fmt::format("two.{}", format->name);
     EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(name + " holds 20 frames, 2.00 s at 10"));
-    const std::string found = output_of(
+    const std::string found = checked_output_of(
         "ffprobe -v error -count_frames -show_entries "
         "stream=width,height,avg_frame_rate,nb_read_frames:format=duration -of "
         "default=noprint_wrappers=1 " +
@@ -398,9 +393,9 @@ TEST_F(Video, ClosingTheWindowLeavesAWholeVideo) {
   press(GLFW_KEY_SPACE);
   frames_to_images(7);
   close();
-  EXPECT_THAT(
-      output_of("ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 video.mp4"),
-      testing::StartsWith("7"));
+  EXPECT_THAT(checked_output_of(
+                  "ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 video.mp4"),
+              testing::StartsWith("7"));
 }
 
 TEST_F(Video, WithoutFfmpegThereIsAMessageAndNoVideo) {
