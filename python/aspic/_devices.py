@@ -17,7 +17,7 @@ class Device(NamedTuple):
     backend: str
     """``"gpu"``, ``"cpu"`` or ``"reference"``, as ``Simulation()`` takes it."""
     name: str
-    """The driver's name of the device, or what the solver says of itself; empty: it cannot be used."""
+    """The name of the device, from its driver or its solver; empty: it cannot be used."""
     reason: str
     """Why it cannot be used, and what would help; empty where it can."""
 

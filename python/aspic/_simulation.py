@@ -121,12 +121,12 @@ class Simulation(Replayable):
 
     @property
     def backend(self) -> str:
-        """``"gpu:gather"``, ``"cpu"``, ``"reference:double"``: what computes, with its options."""
+        """The backend with its options: ``"gpu:gather"``, ``"cpu"``, ``"reference:double"``."""
         return self._core.variant
 
     @property
     def device(self) -> str:
-        """The driver's name of the device, or what the solver says of itself."""
+        """The name of the device, from its driver or its solver."""
         return self._core.device
 
     @property
